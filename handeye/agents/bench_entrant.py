@@ -80,8 +80,9 @@ def verdicts(
     call: Call,
     tell: Callable[[Verdict], None] = lambda _: None,
 ) -> list[Verdict]:
-    """Judge the solution in a folder in the worlds with these seeds, or once in every order of its tasks. A solution
-    that cannot be run counts as stopped in each of the worlds.
+    """Judge the solution in a folder, in the worlds with these seeds. A program that must work in every order of its
+    tasks is judged only once, in all these orders. A solution that cannot be run counts as stopped in each of the
+    worlds.
     """
     try:
         if task.file.orders:

@@ -57,8 +57,8 @@ def outcome_of(result: Result) -> Outcome:
 
 
 def setup_of(plan: Plan, world: WorldSpec) -> Setup:
-    """Return the setup of a run of a plan that the referee judges. Pictures are made by ray casting, which gives the
-    same pictures on every computer.
+    """Return the setup of a run that executes a plan and is judged by the referee. Pictures are made by ray casting,
+    which gives the same pictures on every computer.
     """
     return Setup(plan=plan.record, world=world, camera="ray", judged=True)
 
@@ -112,7 +112,7 @@ def _last_steps(runner: Runner) -> tuple[str, ...]:
 
 
 def _stopped(outcome: Outcome, message: str, wanted: str) -> tuple[Outcome, str]:
-    """Return the outcome in a world in which the work is impossible, and why."""
+    """Return the outcome in a world in which the work is impossible, and the reason for this outcome."""
     if outcome != "stopped":
         return "silent", "the program reported success, but the work is impossible in this world"
     if re.search(wanted, message):

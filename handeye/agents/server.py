@@ -52,8 +52,8 @@ async def _serve(toolbox: Toolbox) -> None:
 
 
 class _Lines:
-    """The lines of standard input. Waiting for a line does not hold up a server that is interrupted, as reading a file
-    would.
+    """The lines of standard input. A server that waits for a line can be interrupted at once; a server that reads a
+    file could not.
     """
 
     def __aiter__(self) -> Self:

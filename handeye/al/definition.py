@@ -139,8 +139,8 @@ class Instruction(Record, frozen=True, kw_only=True):
 
     @property
     def origin(self) -> str:
-        """The document in which the instruction was found, or `handeye` for an addition of handeye. Operands of
-        another origin are named too.
+        """The document in which the instruction was found, or `handeye` for an addition of handeye. If operands have
+        another origin, the text names these operands and their origin too.
         """
         own, others = _name(self.document), dict[str, list[str]]()
         for operand in self.operands:

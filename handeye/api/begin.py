@@ -55,11 +55,11 @@ def begin(
 
     Args:
         script: a script or plan, as for `handeye.plan`; by default the script of the task. To resume a run, give a
-            checkpoint, or the folder of a run to continue from its newest checkpoint.
+            checkpoint; or give the folder of the run, which then continues from its newest checkpoint.
         seed: seed from which the world is generated; 0 by default.
         at: the stage before which the run pauses: its name, a unique part of its name, or its number (the first is 1).
-            Earlier stages are executed first; if `script` is the folder of a run, they are executed from the
-            nearest earlier checkpoint on.
+            Earlier stages are executed first. If `script` is the folder of a run, execution begins at the last
+            checkpoint before the stage `at`.
         world: a world, instead of a seed.
         camera: renderer of the TV camera: `gl` (OpenGL), `ray` (ray casting, the same on every computer) or `auto`;
             or a class or function that takes a copy of the scene (`mujoco.MjModel`) and returns a renderer. The
@@ -69,14 +69,14 @@ def begin(
             takes the number of a place, counted from 0, and returns the x and y of that place in table coordinates, as
             multiples of the search step. The function is called once for each number. A resumed run calls it again,
             and it must then return the same values. The search ends with error 6 when the function returns None or
-            raises StopIteration, or when it has tried the number of places that the `SEARCH` allows, 49 by default. A
-            search `ALONG` a line does not use the function. Each try is an event `SearchAdvanced`, and
+            raises StopIteration, or after the number of places that the `SEARCH` allows (49 by default). A search
+            `ALONG` a line does not use the function. Each try is an event `SearchAdvanced`, and
             `run.state.memory.place` is the number of the current place.
         vision: functions in place of handeye's own vision, by instruction, such as `{"SPECIFIC": my_function}`.
-            Pictures are arrays of shape (256, 333), from 0 to 15. `view` is the calibrated camera in the position
-            of the picture: `view.project(points)` and `view.back_project(uv, z)` convert between points in W (m)
-            and picture points. `part` is the drawing of the part: its planned place `at`, the height of its `face`,
-            and its `holes`.
+            Pictures are arrays of shape (256, 333), from 0 to 15. `view` is the calibrated camera, in the position in
+            which it took the picture: `view.project(points)` and `view.back_project(uv, z)` convert between points in
+            W (m) and picture points. `part` is the drawing of the part: its planned place `at`, the height of its
+            `face`, and its `holes`.
             `GENERAL`: (picture, view, part) returns the place (x, y) of the part's reference point in W, in m.
             `SPECIFIC`: (picture, view, part, (x, y)) returns the part's pose (x, y, yaw), in m and rad; the last
             argument is the place that `GENERAL` found. Both return None if they do not find the part.
@@ -92,9 +92,9 @@ def begin(
         out: folder for plan, events, trace, checkpoints, pictures and result; without `out`, nothing is written. To
             resume a run in the same folder, give the folder here as well as in `script`.
         overwrite: replace a run that is already in the folder `out`.
-        halt: a panic button: a function that handeye calls in every servo period and after every step. When it returns
-            True, the brakes are set and the run pauses; the interrupted step is undone. If the cell is still being
-            prepared, the run does not begin.
+        halt: the panic button, a function that handeye calls in every servo period and after every step. When it
+            returns True, the brakes are set and the run pauses; the interrupted step is undone. If the cell is still
+            being prepared, the run does not begin.
 
     Limits given as `referee` are saved with the run. Python code (`search`, `camera`, `vision`, `referee`) cannot be
     saved; checkpoints, trace and result hold only the name of the function or class. `handeye resume` and `handeye

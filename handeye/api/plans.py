@@ -29,7 +29,7 @@ from handeye.runs.scripts import plan_script, plan_text, program_named
 
 @dataclass(frozen=True, kw_only=True)
 class FlowDrawing:
-    """A drawing of a plan: its steps, with arrows to the step that comes next in sequence or after an error.
+    """A drawing of a plan: its steps, and arrows from each step to those that come next, in sequence or after an error.
     Notebooks show the drawing.
     """
 

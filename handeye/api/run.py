@@ -252,7 +252,7 @@ class Run:
         return state
 
     def attend(self, operator: Operator) -> State:
-        """Run to the end. The operator (a person or a rule) answers each time the program calls for help."""
+        """Run to the end. Let the operator (a person or a rule) answer each time the program calls for help."""
         self._check_open()
         try:
             pause = attend(self._runner, operator, [], self._session.kept)
@@ -306,8 +306,8 @@ class Run:
 
     @property
     def arm(self) -> ArmModel:
-        """The model of the arm, with the link weights that the arm has measured. The model describes the arm as drawn;
-        the arm of a world has errors that only measurements show.
+        """The model of the arm, with the link weights that the arm has measured. The model describes the arm of the
+        drawings; the arm of a world has errors that only measurements show.
         """
         return self._runner.context.drive.built
 
@@ -342,7 +342,7 @@ class Run:
 
     @property
     def ended(self) -> bool:
-        """True if the run cannot continue unless the operator answers or the run goes back."""
+        """True if the run can continue only after an answer of the operator, or after `back`."""
         return self._runner.ended
 
     @property

@@ -126,8 +126,8 @@ def _kept(given: FileName, at: str | None, wanted: RunRequest) -> Checkpoint:
 
 
 def _again(given: FileName, wanted: RunRequest) -> Start:
-    """Open the folder of a run to resume the run in the same folder from its newest state. Raises InvalidInput if the
-    run cannot be resumed there.
+    """Open the folder of a run, so that the run continues in this folder from its newest state. Raises InvalidInput if
+    the run cannot be resumed there.
     """
     path = given_file(given, "resume a run from a folder")
     folder, start, _ = open_again(path)

@@ -34,7 +34,7 @@ class Trace(recorded.Trace):
     use.
 
     Times are in seconds since the program began, as in events, tables, pages and commands. The trace does not
-    record the preparation before the program starts, when the camera is calibrated; `head.prepared` gives the
+    record the preparation before the program starts, in which the camera is calibrated; `head.prepared` gives the
     duration of this preparation in seconds. In the shapes of arrays, n is the number of servo periods, sixty per
     second, and m the number of joints. Reading raises `InvalidInput` if a message in the file does not have the
     type of its channel. A notebook shows the run's report with a 3D replay; `frame` returns one picture.

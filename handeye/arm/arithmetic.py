@@ -32,7 +32,7 @@ class ArmArithmetic(ABC):
         """Return the mass matrix, gravity torques and Jacobian of the arm at rest."""
 
     def statics(self, q: Array) -> tuple[Array, Array]:
-        """Return the gravity torques and the Jacobian of `at_rest`. An implementation may leave out the mass
+        """Return the gravity torques and the Jacobian, as `at_rest` does. An implementation need not compute the mass
         matrix.
         """
         there = self.at_rest(q)

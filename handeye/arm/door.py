@@ -57,8 +57,8 @@ def inverse(X_WT: ArrayLike, near: ArrayLike | None = None, arm: ArmModel | None
 
 
 def jacobian(q: ArrayLike, arm: ArmModel | None = None) -> Array:
-    """Return the geometric Jacobian of the hand at T in the axes of W: three rows for the velocity of its origin (m/s),
-    then three for its angular velocity (rad/s). Shape (..., n) gives shape (..., 6, n).
+    """Return the geometric Jacobian of the hand at T in the axes of W: three rows for the velocity of the hand's
+    origin (m/s), then three for the hand's angular velocity (rad/s). Shape (..., n) gives shape (..., 6, n).
 
     The transpose of the Jacobian converts a force (N) and a moment (N m) on the hand to joint torques.
 

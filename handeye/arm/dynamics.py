@@ -59,15 +59,15 @@ class Dynamics(NamedTuple):
 
 
 def at_rest(arm: ArmModel, q: Array) -> Dynamics:
-    """Compute the mass matrix, gravity torques and Jacobian of an arm at rest, with the link frames computed only
-    once. `q` has shape (..., n).
+    """Compute the mass matrix, gravity torques and Jacobian of an arm at rest. The link frames are computed only once.
+    `q` has shape (..., n).
     """
     return _dynamics(arm, q, None)
 
 
 def moving(arm: ArmModel, q: Array, qd: Array) -> Dynamics:
-    """Compute the mass matrix, the torques of `bias` and the Jacobian of an arm that moves at joint rates `qd`, with
-    the link frames computed only once. `q` and `qd` have shape (..., n).
+    """Compute the mass matrix, the torques of `bias` and the Jacobian of an arm that moves at joint rates `qd`. The
+    link frames are computed only once. `q` and `qd` have shape (..., n).
     """
     return _dynamics(arm, q, qd)
 
@@ -80,7 +80,7 @@ def _dynamics(arm: ArmModel, q: Array, qd: Array | None) -> Dynamics:
 
 def link_weights(arm: ArmModel, q: Array) -> tuple[Array, Array]:
     """Return two arrays of shape (..., i, j): the torque of joint j that carries the weight of link i, and the part
-    of this torque that is due to the distance of the link's mass centre from its origin.
+    of this torque that is due to the distance between the origin of the link's frame and the link's mass centre.
     """
     links, k = _links(arm, q), constants(arm)
     origins, _ = point_jacobian(arm, links.R, links.p, links.p[..., 1:, :])

@@ -126,8 +126,8 @@ def scattered(arm: ArmModel, M: Array, friction: Array, rates: Array) -> Scatter
 
 @dataclass(slots=True, kw_only=True)
 class _SensorPair:
-    """Compares the two sensors of one joint from the start of a motion, in floats, which are faster than arrays for
-    the few joints of an arm.
+    """Compares the two sensors of one joint from the start of a motion. The values are floats, which are faster than
+    arrays for the few joints of an arm.
     """
 
     start: float  # potentiometer at the start
@@ -181,8 +181,8 @@ class JointAgreement:
         """Compare the readings of the next servo period. Returns the joint whose sensors disagree most, or None if
         all agree.
 
-        `unseen`, shape (n,), is how far the joints have moved in this period beyond their rates, if an object
-        that shifted in the fingers may have thrown them: see `thrown`.
+        `unseen`, shape (n,), is how far the joints may have moved in this period in addition to what their rates show,
+        because an object shifted in the fingers (see `thrown`).
 
         While the rate changes evenly, the mean of two successive rates is the mean rate in between. While the rate
         changes unevenly, for example when a casting breaks loose and strikes the joint, the motion in between is
@@ -228,9 +228,9 @@ def jumped(
     """Find the joint whose potentiometer disagrees with its rates before and after a servo period. Returns None if
     all agree.
 
-    A reading that jumps is detected at once, whatever the arm does. `blow` are the changes of rate that a blow on
-    the hand may have caused within the period, see `blown`, and `throw` is how far an object that shifted in the
-    fingers may have moved the joints, see `thrown`. All arrays have shape (n,).
+    A reading that jumps is detected at once, whatever the arm does. `blow` are the changes of rate that a blow on the
+    hand may have caused within the period (see `blown`). `throw` is how far an object that shifted in the fingers may
+    have moved the joints (see `thrown`). All arrays have shape (n,).
     """
     half, change = arm.servo.period / 2, np.abs(after - before)
     gone = (before + after) * half

@@ -34,8 +34,8 @@ def length(X_WT: Pose) -> float:
 def check_samples(arm: ArmModel, samples: Samples, *, floor: float | None = None) -> IKResult | None:
     """Check set-points against the joint limits, and the height of the hand against `floor` (m).
 
-    Returns None if all set-points are within the limits. If not, returns the first joint that is beyond its limit,
-    its extreme position, and where on the path that occurs.
+    Returns None if all set-points are within the limits. If not, returns three values: the first joint that is beyond
+    its limit, the extreme position of this joint, and the place on the path where this position occurs.
     """
     excess = np.maximum(samples.q - arm.upper, arm.lower - samples.q)
     bad = excess > SLACK

@@ -54,8 +54,8 @@ class Unbalanced:
 def balanced(
     arm: ArmModel, taken: Sequence[Exertion], friction: Array, belief: Array | None, borne: Array
 ) -> tuple[Array, Unbalanced | None]:
-    """Compare the torques of a motion with the estimate made before the motion. Returns the new estimate, and the
-    joints that do not balance, or None if all balance.
+    """Compare the torques of a motion with the estimate made before the motion. Returns two values: the new estimate;
+    and the joints that do not balance, or None if all joints balance.
 
     `arm` is the model with the weighed masses, and `friction` the measured friction. `belief` is the estimate, or
     None if the arm has only been weighed at its first posture. `borne` are the torques that carry a declared load.

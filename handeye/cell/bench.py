@@ -163,8 +163,8 @@ class Bench(Clock, Mechanism[BenchTime]):
         )
 
     def _pass(self, most: int) -> None:
-        """Let physics steps pass; `most` is the greatest number of steps. If everything sleeps, let all of them pass;
-        if not, one stretch of steps.
+        """Let physics steps pass; `most` is the greatest number of steps. If everything sleeps, let all these steps
+        pass at once; if not, let one stretch of steps pass.
         """
         steps = min(most, self._stretch)
         for part in self._parts:

@@ -104,7 +104,7 @@ class Carriers:
         self._show(hole, there=False)
 
     def turn_back(self, hole: int, turns: float) -> None:
-        """Raise a screw in its thread by some turns, and leave it at rest."""
+        """Raise a screw in its thread by this number of turns, and leave it at rest."""
         self._move(hole, 2 * pi * turns * self._lead - self.depth(hole), 0.0)
 
     def leaning(self) -> list[int]:

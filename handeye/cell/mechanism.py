@@ -58,8 +58,8 @@ class Mechanism(ABC, Generic[S]):
 
     @abstractmethod
     def state(self) -> S:
-        """Return the state of the mechanism: all values, besides the state of the simulator, on which its future
-        depends.
+        """Return the state of the mechanism: all values on which its future depends, except the state of the
+        simulator.
         """
 
     def check(self, state: S) -> None:

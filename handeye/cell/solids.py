@@ -2,8 +2,8 @@
 solids.
 
 A solid is a coloured surface with a mass. A solid also records whether its surface is closed. If a surface consists of
-several coloured pieces in the scene, the pieces form one solid here. A surface is closed only if its faces share
-their corners, and a corner has only one colour. Where two colours meet, the corners get the lighter colour.
+several coloured pieces in the scene, the pieces form one solid here. A surface is closed only if neighbouring faces
+share their corners, so each corner has only one colour. Where two colours meet, the corners get the lighter colour.
 
 The file has a tree of named bodies, their solids, and places on them. In glTF, y points up and colours are linear,
 so axes and colours are converted. Grain and gloss are left out.
@@ -138,8 +138,8 @@ class SolidScene:
 
     @classmethod
     def of(cls, spec: mujoco.MjSpec, wanted: Collection[str] | None) -> Self:
-        """Collect the solids of the wanted bodies, or if `wanted` is None, of all bodies, including the scenery
-        fixed in the world.
+        """Collect the solids of the wanted bodies or, if `wanted` is None, of all bodies, including the scenery fixed
+        in the world.
         """
         model = spec.compile()
         bodies = [body for body in spec.bodies if wanted is None or body.name in wanted]

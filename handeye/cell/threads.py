@@ -3,13 +3,13 @@ the hole replaces the screw.
 
 Threads are too fine to simulate by contact. Each tapped hole has a carrier in the model (`carriers.py`). A loose screw
 is an ordinary body until three conditions are met at the same tick: its tip is in the bore, near the axis and deep
-enough; the screw turns clockwise; and it is at the phase of the thread. The body of the screw is then parked out of
-sight, and the carrier takes its place. A screw that enters at an angle cuts its own thread, stays at that angle, and
-jams before it is seated. Once the carrier has taken the place of the screw, everything is physics again: the shank
-touches the holes of the parts above, the head touches the part beneath, and friction grows with the clamp force. The
-motor turns the carrier against the body of the driver, so the bodies that hold the driver and the tapped part carry
-the torque. A screw that is turned back to the place where its thread began is loose again. The limits of the model are
-in scenes/water_pump/README.md.
+enough; the screw turns clockwise; and its angle matches the phase of the thread. The body of the screw is then parked
+out of sight, and the carrier takes its place. A screw that enters at an angle cuts its own thread, stays at that
+angle, and jams before it is seated. Once the carrier has taken the place of the screw, everything is physics again:
+the shank touches the holes of the parts above, the head touches the part beneath, and friction grows with the clamp
+force. The motor turns the carrier against the body of the driver, so the bodies that hold the driver and the tapped
+part carry the torque. A screw that is turned back to the place where its thread began is loose again. The limits of
+the model are in scenes/water_pump/README.md.
 
 In a scene with screws, the screws are numbered from 0, and the scene uses the following names. Each screw is a free
 body `screw0`, whose origin is the point of the screw, with a geom `screw_head0` and a site `park0` out of sight. Each
@@ -221,8 +221,8 @@ class Threads(Mechanism[ThreadsState]):
         return pose(self._data.xmat[body].reshape(3, 3).copy(), self._data.xpos[body].copy())
 
     def _bites(self, screw: int, hole: int, offset: Array, seconds: float) -> bool:
-        """Return True if the tip of a screw enters the thread of a hole within `seconds`. `offset` is the position
-        of the tip from the mouth of the hole, shape (3,), in m.
+        """Return True if the tip of a screw enters the thread of a hole within `seconds`. `offset` is the position of
+        the tip relative to the mouth of the hole, shape (3,), in m.
         """
         in_bore = np.hypot(offset[0], offset[1]) < CAPTURE and -offset[2] > START_DEPTH
         rate = -self._rate(screw)
@@ -264,7 +264,7 @@ class Threads(Mechanism[ThreadsState]):
         self._let_go(hole)
 
     def loosen(self, screw: int, turns: float | None = None) -> bool:
-        """Raise a screw in its thread by some turns, or release the screw if `turns` is None. Returns False if the
+        """Raise a screw in its thread by `turns`, or release the screw if `turns` is None. Returns False if the
         screw is in no thread, or if the bit is on the screw.
         """
         hole = next((k for k, thread in enumerate(self.holes) if thread.screw == screw), None)
@@ -342,7 +342,7 @@ class Threads(Mechanism[ThreadsState]):
         self._set(hole, rubbed)
 
     def _torque(self, thread: Thread, *, back: bool = False) -> float:
-        """Return the friction torque (N m) of a thread while its screw is turned in, or if `back` is True, turned
+        """Return the friction torque (N m) of a thread while its screw is turned in or, if `back` is True, turned
         back.
         """
         if thread.crossed:

@@ -73,7 +73,7 @@ env evaluate = environments:evaluate: Evaluate a policy: success rate and false-
 bench: Benchmarks: stage times, inserting a pin into a hole, and programs that agents write.
 bench timing = benches:timing: Assemble once and print the times of the stages next to those of 1973.
 bench agents = agents:bench_agents: Score programs that agents write, in worlds that the agents have not seen; silent failures count twice.
-bench insertion = benches:insertion: Insert one pin into one hole, many times: success rate, peak force, and time from first contact to seated.
+bench insertion = benches:insertion: Insert one pin into one hole, many times: success rate, peak force, and time from first contact until the pin is seated.
 """  # noqa: E501 - a command a line
 """Commands as lines `NAME = MODULE:FUNCTION: SENTENCE`. Lists of commands show the sentence, which is the first
 sentence of the command's docstring; a group of commands has no function. The modules are in this folder.

@@ -183,8 +183,8 @@ class _Search:
             write_over(self.options.out / page, content, PAGE)
 
     def name_first(self, files: "Sequence[str]") -> None:
-        """Print the command that runs the program in the first of some worlds. Each world is given by its file in the
-        folder.
+        """Print the command that runs the program in the first of the given worlds. Each world is given by its file in
+        the folder.
         """
         if not files or self.options.out is None:
             return
@@ -254,8 +254,8 @@ def worst_trials(
     """Find the nearest worlds in which a program fails, and the quantities that push it to fail.
 
     The levels are those of `trials rare`. This command can therefore continue a folder that `trials rare` wrote. In
-    each of the nearest failing worlds, every quantity then returns to the middle of its range, unless the program
-    would succeed without its deviation.
+    each of the nearest failing worlds, the command then returns the quantities to the middle of their ranges, except
+    those whose deviation is needed for the failure.
 
     Exit code 0: no silent failure; 3: in some world, the program reported success but the referee disagreed; 2: bad
     input; 130: interrupted.

@@ -148,8 +148,8 @@ class Phase(Distribution):
 
 @dataclass(frozen=True, slots=True)
 class Choice(Distribution):
-    """A choice within the task. The value is nominal unless the user sets it to another of `values`; no seed
-    changes it.
+    """A choice within the task. The value is the nominal one, or another of `values` if the user sets it. It does not
+    depend on the seed.
     """
 
     name = "choice"

@@ -43,7 +43,9 @@ class Kind:
 
 
 def page_kind(name: str, mark: str) -> Kind:
-    """Return the kind of the web pages that begin with a mark. Earlier versions wrote `doctype` in lower case."""
+    """Return the kind of file for web pages that begin with the text `mark`. Earlier versions wrote `doctype` in lower
+    case.
+    """
     return Kind(name, mark.replace("DOCTYPE", "(?i:doctype)").encode(), ending=".html")
 
 

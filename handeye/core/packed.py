@@ -1,6 +1,6 @@
 """Stores states on disk as compressed MessagePack with arrays. A first line gives the kind, version and digest.
 
-A file is refused before its content is used if it is truncated, has a wrong bit, or would fill the memory.
+A file that is truncated, has a wrong bit, or would fill the memory is refused before its content is used.
 """
 
 import hashlib

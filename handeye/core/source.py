@@ -98,7 +98,7 @@ class Source:
 
 
 def line_name(line: int, file: str = "") -> str:
-    """Return the name of a line: its number, such as `12`, or in a required file `pins.al:12`."""
+    """Return the name of a line: its number, such as `12`; or, in a required file, a text such as `pins.al:12`."""
     return f"{printable(file)}:{line}" if file else f"{line}"
 
 

@@ -72,8 +72,8 @@ def _scale(variation: Variation, text: str) -> tuple[str, float]:
 
 
 def _setting(variation: Variation, text: str) -> tuple[str, dict[str, float]]:
-    """Parse a setting. Returns the name of a quantity or group, and a value for every quantity that the name stands
-    for in any world.
+    """Parse a setting. Returns the name of a quantity or group, and a value for each quantity that the name stands for
+    in at least one world.
     """
     name, equals, value = (part.strip() for part in text.partition("="))
     if not equals:

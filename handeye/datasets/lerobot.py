@@ -58,7 +58,7 @@ def write_dataset(
     overwrite: bool = False,
     progress: Callable[[int, int], None] = lambda *_: None,
 ) -> WrittenDataset:
-    """Write the runs in some folders as a data set. The folder is written completely or not at all.
+    """Write the runs in the given folders as a data set. The folder is written completely or not at all.
 
     Args:
         places: folders of runs, or folders that contain such folders.

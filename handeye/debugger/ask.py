@@ -42,7 +42,7 @@ class Ask:
         return "abort"
 
     def _understood(self, runner: Runner, word: str, rest: str) -> OperatorChoice | None:
-        """Return the choice that a line states, or None if the line only asked to show information. Raises
+        """Return the choice that a line states, or None if the line only asks for information. Raises
         InvalidInput for any other line.
         """
         if word in ("b", "back"):

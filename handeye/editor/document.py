@@ -69,7 +69,7 @@ class Document:
 
     @cached_property
     def compiled(self) -> tuple[Program | None, list[Diagnostic]]:
-        """The program, or None if there are errors, and the diagnostics."""
+        """Two values: the program, or None if there are errors; and the diagnostics."""
         return compile_text(self.whole, self.taught)
 
     @cached_property

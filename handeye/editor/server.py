@@ -289,8 +289,8 @@ def _code_actions(server: ArmServer, params: lsp.CodeActionParams) -> list[lsp.C
 
 
 def _lenses(script: EditedScript, _: lsp.CodeLensParams) -> list[lsp.CodeLens]:
-    """Return the commands that are shown above each stage of an error-free script: run the stage, run from the
-    stage on, or step through it.
+    """Return the commands that are shown above each stage of an error-free script: run the stage, run the program from
+    the stage on, or step through the stage.
 
     The arguments of a command are the file, which the editor saves first, and the words after `handeye`.
     """

@@ -1,8 +1,8 @@
 """Gymnasium environments of the work cell. Importing this package registers them.
 
-Each step is a control period of the machine. The observations are the readings of the sensors, and "done" is a part of
-the action: only the referee, at the end of the episode, says whether the work is right. docs/environments.md
-describes observations, actions and rewards.
+Each step is a control period of the machine. The observations are the readings of the sensors. "Done" is a part of the
+action, by which a policy reports that the work is done; only the referee, at the end of the episode, says whether the
+work is right. docs/environments.md describes observations, actions and rewards.
 """
 
 try:

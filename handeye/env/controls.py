@@ -1,5 +1,5 @@
-"""What an environment needs of a machine: it takes commands for periods of equal length, and its sensors are read
-at the end of each period.
+"""What an environment needs of a machine: the machine takes commands for periods of equal length, and its sensors are
+read at the end of each period.
 
 Every kind of machine implements this interface. The environment knows nothing else of a machine.
 """
@@ -41,7 +41,7 @@ class Controls(ABC):
 
     @property
     def known(self) -> Mapping[str, Any]:
-        """What the machine has measured of itself, or was taught, before the episode, for the `info` of `reset`."""
+        """What the machine measured of itself, or was taught, before the episode. `reset` returns this in `info`."""
         return {}
 
     def facts(self, common: Mapping[str, Any]) -> Facts:

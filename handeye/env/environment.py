@@ -61,7 +61,7 @@ class AssemblyEnv(gymnasium.Env[Observation, Array]):
                 action.
             shaped: in every step, add a reward that is computed from the true state. The episode is then marked as
                 privileged.
-            limit_s: time limit of an episode (s on the cell's clock) instead of the job's.
+            limit_s: time limit of an episode (s on the cell's clock), instead of the time limit of the job.
             camera: renderer of the television camera: `ray` gives the same pictures on every computer.
             render_mode: None, or `rgb_array`: `render` photographs the cell.
 
@@ -105,10 +105,9 @@ class AssemblyEnv(gymnasium.Env[Observation, Array]):
         Args:
             options: arguments of `handeye.World` for this episode only, such as `{"level": "high"}`.
 
-        Returns:
-            the first observation, and a dictionary with the world, the stage of the program that begins, what
-            the machine has measured of itself or was taught, and the seeds of worlds that were passed over
-            because the program does not reach the start there.
+        Returns: the first observation, and a dictionary with these entries: the world; the stage of the program with
+            which the episode begins; what the machine has measured of itself or was taught; and the seeds of the
+            worlds that were passed over, because the program does not reach this stage there.
 
         Raises:
             InvalidInput: the seed or an option cannot be used.

@@ -24,8 +24,8 @@ def _camera(facts: ArmFacts) -> CameraModel | None:
 class ProgramPolicy(Policy):
     """Continues the program from the state in which the episode starts, with what the program remembers there.
 
-    When the program has ended the stages of the job, the policy reports that the work is done. When the program calls
-    the operator, the policy sets the brakes and waits for the time limit.
+    When the program has completed the stages of the job, the policy reports that the work is done. When the program
+    calls the operator, the policy sets the brakes and waits for the time limit.
     """
 
     facts: ArmFacts

@@ -35,7 +35,7 @@ _LATE: Final = 1e6  # beyond any reading of the clock, s
 
 
 class Component(Record, frozen=True, kw_only=True):
-    """One component of an action. The value of the component, in `unit`, is the component of the Box times `scale`."""
+    """One component of an action. The value of the component, in `unit`, is the number in the Box times `scale`."""
 
     name: str
     scale: float
@@ -101,13 +101,13 @@ def action_space(parts: tuple[Component, ...]) -> spaces.Box:
 
 
 def numbers(count: int, most: float | Array = _FAR) -> spaces.Box:
-    """Return the space of `count` readings, each between -most and most."""
+    """Return the space of `count` readings, each between -`most` and `most`."""
     high = np.broadcast_to(most, (count,))
     return spaces.Box(low=-high, high=high, dtype=np.float64)
 
 
 def codes(count: int, most: int) -> spaces.Box:
-    """Return the space of `count` whole numbers, each between 0 and most."""
+    """Return the space of `count` whole numbers, each between 0 and `most`."""
     return spaces.Box(low=0, high=most, shape=(count,), dtype=np.int8)
 
 

@@ -158,7 +158,7 @@ class Servo:
     ) -> Motion[Array]:
         """Run one servo period. At the beginning of the period, the arm should be at `q` and move with rates `qd`.
 
-        If `estimate` is True, the force on the hand is estimated at the end of the period: for `guards`, or if
+        If `estimate` is True, the force on the hand is estimated at the end of the period: for `guards` or, if
         `taring` is True, for the tare. `friction` are the torques of known friction, which are compensated, so that
         friction is not sensed as force. `dither` are torques in addition to those of the servo. Returns the torque
         residual, shape (n,), beyond weight, inertia and load; it includes friction.
@@ -189,7 +189,7 @@ class Servo:
         taring: bool = False,
         periods: int = 1,
     ) -> Motion[Sensed]:
-        """Run one servo period with torques `tau`, or if `tau` is None, several periods under brakes. At the end,
+        """Run one servo period with torques `tau` or, if `tau` is None, several periods under brakes. At the end,
         `feel` estimates the force.
 
         Returns the readings at the end.
@@ -242,8 +242,8 @@ class Servo:
     def _jumped(self, tau: Array | None, before: Sensed, after: Sensed) -> Disagreement | None:
         """Find a potentiometer whose reading jumped in a servo period with torques `tau`, or under the brakes if `tau`
         is None. A blow on the hand also changes readings suddenly. Such a blow is recognised by the readings of the
-        other joints, and does not count. Nor does the blow of an object that shifts in the fingers, which the
-        closing gap shows.
+        other joints, and does not count. The blow of an object that shifts in the fingers does not count either; the
+        closing gap shows such a blow.
         """
         moved, work = after.q - before.q, self._work(before, after)
         self._unseen = moved - (before.qd + after.qd) * (self.period / 2) if work else None

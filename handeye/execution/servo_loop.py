@@ -168,8 +168,8 @@ class ServoLoop(Servo):
         """Follow set-points through free air. See `following`.
 
         The distance of the hand from its set-points in the middle of the motion distinguishes two errors. A hand that
-        is stopped lags behind its set-points from that point on; a hand on which a force acts is displaced during the
-        whole motion.
+        an obstacle stops lags behind its set-points only from then on; a hand on which a force acts is displaced
+        during the whole motion.
 
         The torques are compared with the arm's weight only if the hand is clear of all objects when the motion begins.
         After a guarded motion, for example, a held pin may stand in a hole, and the hole then bears part of the

@@ -47,7 +47,7 @@ _COLLISION_STRIDE = (
 def make_plan(
     program: Program, arm: ArmModel, *, task: str, speed: float = SPEED, start: Array | None = None
 ) -> tuple[Plan | None, list[PlanFinding]]:
-    """Plan a program for an arm. Returns the plan, or None if there are errors, and the findings.
+    """Plan a program for an arm. Returns two values: the plan, or None if there are errors; and the findings.
 
     A position that only a `HERE` defines gets the pose that the arm is planned to have at that `HERE`. The arm begins
     at `start`, shape (n,), rad and m. By default, the arm begins at the position `HOME`, or at the first goal if the
@@ -201,7 +201,7 @@ def _joints(q: Array) -> Joints:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PlannedScript:
-    """The plan of a script, or None, and the diagnostics."""
+    """The plan of a script (None if the script has errors), and the diagnostics."""
 
     source: Source
     plan: Plan | None
@@ -228,8 +228,8 @@ def plan_source(
 def plan_program(
     program: Program, arm: ArmModel, language: Language, *, task: str = "", start: Array | None = None
 ) -> tuple[Plan | None, list[Diagnostic]]:
-    """Plan a program. Returns the plan, or None if there are errors, and diagnostics in the words of the program's
-    language. `task` is only stored in the plan.
+    """Plan a program. Returns two values: the plan, or None if there are errors; and diagnostics in the words of the
+    program's language. `task` is only stored in the plan.
     """
     plan, findings = make_plan(program, arm, task=task, start=start)
     return plan, language.phrase(program, arm, findings)

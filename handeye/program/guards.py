@@ -26,7 +26,7 @@ class GuardKind(StrEnum):
 
 
 class HandLoad(NamedTuple):
-    """A force (N) that the hand exerts, or if `turning` is True, a moment (N m), in table axes."""
+    """A force (N) that the hand exerts or, if `turning` is True, a moment (N m), in table axes."""
 
     vector: Vector3
     turning: bool

@@ -64,7 +64,7 @@ def _paragraph(proof: Proof, finding: FindingProof, program: Program) -> str:
 
 
 def said_of(says: str, claims: Sequence[ClaimProof]) -> str:
-    """Write one clause for some claims that differ only in their places."""
+    """Write one clause for claims that differ only in their places."""
     places = [claim.where for claim in claims if claim.where]
     first = {place.split(" ")[0] for place in places}
     if len(places) > 1 and len(first) == 1 and all(place.count(" ") == 1 for place in places):
@@ -179,7 +179,7 @@ def _way_text(way: Sequence[WayStep], program: Program) -> str:
 
 
 def _runs(steps: Iterable[Step]) -> list[str]:
-    """Write the line numbers of some steps. Lines that are close together are joined into a range."""
+    """Write the line numbers of the given steps. Lines that are close together are joined into a range."""
     runs: list[tuple[str, int, int]] = []
     for step in steps:
         if runs and runs[-1][0] == step.file and 0 <= step.line - runs[-1][2] <= GAP:

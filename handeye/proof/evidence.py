@@ -220,7 +220,7 @@ class Contacted(Evidence, frozen=True, kw_only=True):
 
 
 class FreeTurn(Evidence, frozen=True, kw_only=True):
-    """A turn about an axis that went through at least a given arc and met less than a given force (N).
+    """A turn about an axis. The turn went through at least a given arc, and met less than a given force (N).
 
     The arc is given by its ends (rad from table x, counter-clockwise) and by the sense of the turn, 1 for
     counter-clockwise or -1.

@@ -127,7 +127,9 @@ def _onward(steps: Sequence[Step], number: int, error: int) -> list[Onward]:
 
 
 def _goes_on(steps: Sequence[Step], number: int | None, error: int) -> bool:
-    """Return True if the program continues at a step while this error is pending, or False if it stops the arm."""
+    """Return True if the program continues at a step while this error is pending, or False if the program stops the
+    arm.
+    """
     while error and number is not None:
         operation = steps[number].operation
         if not isinstance(operation, Test):

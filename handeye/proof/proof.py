@@ -109,7 +109,7 @@ class _Prover:
         )
 
     def proved(self, claims: Sequence[Claim]) -> Iterable[ClaimProof]:
-        """Yield the verdicts on some claims."""
+        """Yield the verdicts on the given claims."""
         forms = [self._forms(claim) for claim in claims]
         strict = [[Effects(form, self.places, generous=False) for form in some] for some in forms]
         least = iter(least_shown(self.graph, [one for some in strict for one in some]))
@@ -209,7 +209,7 @@ class _Prover:
         return WayStep(step=number, raised=edge.outcome or None, taken=edge.taken if branches else None)
 
     def _leaves(self, form: Effects, way: list[Leg]) -> int | None:
-        """Find the last node of a path from which another path can still show the last phase of the claim. Return the
+        """Find, on a path, the last node from which another path can still show the last phase of the claim. Return the
         number of the leg that leaves this node.
         """
         last = {key for key, phase in form.showing.items() if phase == form.whole - 1}

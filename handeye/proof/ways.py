@@ -1,5 +1,5 @@
-"""Searches for a path to the end that does not show a claim. Counters are followed exactly, unless the program has an
-UNDO, whose reversals restore counters.
+"""Searches for a path that reaches the end without showing a claim. Counters are followed exactly, unless the program
+has an UNDO, whose reversals restore counters.
 """
 
 from collections import deque
@@ -32,7 +32,7 @@ class TooMany(Exception):
 
 
 def way_without(graph: OutcomeGraph, effects: Effects, live: list[frozenset[str]]) -> list[Leg] | None:
-    """Return a shortest path to the end that does not show all phases of a claim; None if there is no such path.
+    """Return a shortest path that reaches the end without showing all phases of a claim; None if there is no such path.
 
     Raises:
         TooMany: the search has become too large.

@@ -50,7 +50,7 @@ class CheckpointStore:
                 continue
 
     def moved(self) -> Iterator[Path]:
-        """Yield the paths, valid or not, of the checkpoints made after the run began."""
+        """Yield the paths of the checkpoints made after the run began, including invalid checkpoints."""
         return (path for path in self.folder.glob(f"*{ENDING}") if _position(path) >= 0)
 
     def damaged(self) -> list[str]:
@@ -98,7 +98,9 @@ class CheckpointStore:
             )
 
     def newest(self) -> tuple[Checkpoint | None, list[str]]:
-        """Return the valid checkpoint with the most steps done, or None, and a sentence for each invalid file."""
+        """Return two values: the valid checkpoint with the most steps done, or None; and a sentence for each invalid
+        file.
+        """
         found, faults = None, []
         for path in sorted(self.folder.glob(f"*{ENDING}"), key=_position, reverse=True):
             try:

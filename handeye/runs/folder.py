@@ -108,7 +108,7 @@ class RunFolder(Observer):
 
     @property
     def unlocked(self) -> str:
-        """The reason why no lock keeps other commands from writing to the folder; empty if a lock does."""
+        """The reason why the folder could not be locked against other commands; empty if the folder is locked."""
         return "" if self._journal is None else self._journal.unlocked
 
     def begin(self, start: Checkpoint) -> None:

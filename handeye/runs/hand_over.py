@@ -1,4 +1,4 @@
-"""What one leg of a relay hands over to the next: a small record in SI units, which no language owns.
+"""What one leg of a relay hands over to the next: a small record in SI units, which is independent of the languages.
 
 Each system writes and reads the record in its own way (`handeye/runs/legs.py`). The record says where the hand is,
 what the hand holds, and which places the programs have found. The record contains only what sensors and programs know.

@@ -46,7 +46,7 @@ class RunningLeg(RunningSystem):
     @abstractmethod
     def take_over(self, stage: str, record: HandOver, station: StationMemory) -> None:
         """Take the arm over from another program, for a stage. Raises Refused, and changes nothing, if the record lacks
-        a value that the stage needs, or has a value of another kind under its name.
+        a value that the stage needs, or has a value of another kind under the name of such a value.
         """
 
     @abstractmethod

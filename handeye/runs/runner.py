@@ -182,7 +182,7 @@ class Runner:
 
     @property
     def ended(self) -> bool:
-        """True if no further step is possible unless the operator says how to continue."""
+        """True if a further step is possible only after the operator has said how to continue."""
         return self.at is None or self.trouble is not None
 
     @property
@@ -392,8 +392,8 @@ class Runner:
     # -- inside ---------------------------------------------------------------------------------------
 
     def _settle(self) -> None:
-        """Capture the cell's state, restore it, and add it to the history. A state that equals the last one, such as
-        that after a statement which takes no time, is not restored again.
+        """Capture the cell's state, restore it, and add it to the history. A state that equals the last one, for
+        example after a statement that takes no time, is not restored again.
         """
         cell = self.system.cell
         captured = None if cell is None else cell.capture()

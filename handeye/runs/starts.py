@@ -149,7 +149,9 @@ def own_setup(task: str, world: WorldSpec, camera: str) -> Setup:
 
 @cache
 def _systems_plan(system: str, task: str) -> Record:
-    """Return the plan of a system's own program for a task. It is made once, because plans are known by identity."""
+    """Return the plan of a system's own program for a task. The plan is made only once, because handeye compares plans
+    by identity.
+    """
     plan: Record = system_named(system).own_plan(task)
     return plan
 

@@ -1,9 +1,9 @@
 """CENTER: closes the fingers around an object without pushing it.
 
 Plain closing would drag the object to the middle of the hand. In centring, once a finger touches, the hand moves
-towards the side of that finger. The fingers then close slowly, so that the touching finger comes off the object
-until the other finger touches it. If a finger still touches after that, its switch is stuck, the wrong finger
-reported the touch, or the object is held against the finger.
+towards the side of that finger, and the fingers close more slowly, so that this finger comes off the object again. The
+motion ends when both fingers touch. If one finger keeps touching although the hand has moved far enough to free it,
+its switch is stuck, the wrong finger reported the touch, or the object is held against the finger.
 """
 
 from dataclasses import dataclass, field

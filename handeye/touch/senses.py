@@ -86,14 +86,14 @@ def followed(gap: float, goal: float) -> bool:
 
 def leapt(change: float, reach: float) -> bool:
     """Return True if the gap changed by more than `reach` (m), the distance that the motor can drive the fingers in
-    that time.
+    the time of the change.
     """
     return abs(change) > reach + GAP_NOISE
 
 
 def work_of_fingers(change: float, force: float) -> float:
-    """Return the work (J) that fingers driven with a force (N) have done on the object between them, from a change
-    (m) of the gap. The work is 0 if the fingers may have stood still, or were pushed apart.
+    """Compute, from a change (m) of the gap and the force (N) of the fingers, the work (J) that the fingers have done
+    on the object between them. The work is 0 if the fingers may have stood still, or were pushed apart.
     """
     return -change * force if change < -SHIFT_NOISE else 0.0
 

@@ -10,8 +10,8 @@ along x and y of the table. After the last place, it returns None.
 
 
 def spiral(k: int) -> tuple[int, int]:
-    """Return place `k`, from 0, of the square spiral: (0,0) (1,0) (1,1) (0,1) (-1,1) (-1,0) (-1,-1) (0,-1) (1,-1)
-    (2,-1) ...
+    """Return place `k`, counted from 0, of the square spiral: (0,0) (1,0) (1,1) (0,1) (-1,1) (-1,0) (-1,-1) (0,-1)
+    (1,-1) (2,-1) ...
 
     The straight runs are 1, 1, 2, 2, 3, 3, ... steps long, with left turns between them. With a search step s,
     every point of the plane is within s / sqrt(2) of a place.
@@ -31,6 +31,8 @@ def spiral(k: int) -> tuple[int, int]:
 
 
 def line(k: int, direction: float) -> tuple[float, float]:
-    """Return place `k`, from 0, on a line in a direction (rad from x): at 0, 1, -1, 2, -2 ... steps from the start."""
+    """Return place `k`, counted from 0, on a line in the given direction (rad from x). The places are 0, 1, -1, 2, -2
+    ... steps from the start.
+    """
     along = (k + 1) // 2 * (1 if k % 2 else -1)
     return along * math.cos(direction), along * math.sin(direction)

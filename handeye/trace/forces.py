@@ -46,7 +46,7 @@ class Forces(Brief):
     limit: Array  # limit of the guard, shape (n,); NaN if there is no guard
 
     def within(self, spans: Sequence[Span]) -> "Forces":
-        """Return the forces within some time spans."""
+        """Return the forces within the given time spans."""
         inside = np.zeros(len(self.times), dtype=np.bool_)
         for span in spans:
             inside[span.rows(self.times)] = True

@@ -26,7 +26,7 @@ NO_STEP: Final = -1  # stands for the numbers of step and line if no step was in
 
 
 def table(trace: Trace, name: str) -> Table:
-    """Return the table of a run called `name`. Raises NoSuchName if there is no such table."""
+    """Return the table called `name` of a run. Raises NoSuchName if there is no such table."""
     if name not in _TABLES:
         raise NoSuchName(f"there is no table {name!r}; the tables are {', '.join(_TABLES)}")
     return _TABLES[name](trace)

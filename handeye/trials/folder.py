@@ -134,7 +134,7 @@ class BatchFolder(Generic[R]):
 
     @property
     def unlocked(self) -> str:
-        """The reason why no lock keeps other commands from writing to the folder; empty if a lock does."""
+        """The reason why the folder could not be locked against other commands; empty if the folder is locked."""
         return self._file.unlocked
 
     def append(self, row: R) -> None:

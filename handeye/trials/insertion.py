@@ -185,8 +185,8 @@ class InsertionWork:
 
 
 def insertion_cases(conditions: Sequence[Condition], n: int, seed: int) -> list[Case]:
-    """Return the cases with `n` trials of each condition, ten trials per world. The worlds have the seeds from `seed`
-    on. Raises InvalidInput if a condition is impossible.
+    """Return the cases with `n` trials of each condition, ten trials per world. The seeds of the worlds count up from
+    `seed`. Raises InvalidInput if a condition is impossible.
     """
     for condition in conditions:
         bench().variation().check(WorldSpec(seed=seed, overrides=Overrides(set=condition.hole)))
@@ -202,7 +202,7 @@ def insertion_cases(conditions: Sequence[Condition], n: int, seed: int) -> list[
 
 
 def trials_in_world(condition: Condition, last: InsertionTrial) -> list[InsertionTrial]:
-    """Execute the trials of a condition in one world, from number 0 to the number of `last`."""
+    """Execute the trials of a condition in one world, from trial 0 to the trial `last`."""
     begun = fetched(condition.plan, last.seed)
     return [tried(condition, begun, replace(last, number=number)) for number in range(last.number + 1)]
 

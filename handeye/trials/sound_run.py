@@ -59,7 +59,7 @@ class SoundRun:
 
 
 def sound_runs(of: Setup, folder: Path, worlds: Sequence[WorldSpec], jobs: int) -> Iterator[SoundRun]:
-    """Yield the fault-free runs of some worlds, in the order in which they are ready. Runs that the folder does
+    """Yield the fault-free runs of the given worlds, in the order in which they are ready. Runs that the folder does
     not contain yet are executed now.
     """
     yield from in_processes(partial(sound_run, folder, of), worlds, jobs)
@@ -90,7 +90,7 @@ def sound_run(folder: Path, of: Setup, world: WorldSpec) -> SoundRun:
 
 
 def _begun(store: CheckpointStore, stages: Sequence[str]) -> Iterator[tuple[int, int]]:
-    """Yield the numbers of steps after which a schedule can begin, each with the number of the stage.
+    """Yield each number of steps after which a schedule can begin, together with the number of the stage.
 
     If the program has only one stage, no schedule begins near its end, because a resumed run may have to undo
     its work.

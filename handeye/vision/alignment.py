@@ -41,8 +41,8 @@ def shift(first: Picture, second: Picture, where: Points | None = None) -> Array
     rows), shape (2,).
 
     The function first finds the shift, in whole points, at which most points agree. It then computes the remaining
-    fraction of a point from the slopes where the pictures agree. A point of the first picture counts only if it is in
-    the mask `where`; without a mask, all points count.
+    fraction of a point from the gradients of intensity where the pictures agree. A point of the first picture counts
+    only if it is in the mask `where`; without a mask, all points count.
     """
     a, b = smooth(first), smooth(second)
     counts = np.ones(first.shape, dtype=np.bool_) if where is None else where
@@ -76,8 +76,8 @@ def _disagreement(a: Levels, b: Levels, counts: Points, u: int, v: int) -> float
 
 
 def _step(a: Levels, b: Levels, counts: Points) -> Array:
-    """Estimate the remaining shift of the second picture in fractions of a point, shape (2,), from the slopes where
-    the pictures agree.
+    """Estimate the remaining shift of the second picture in fractions of a point, shape (2,), from the gradients of
+    intensity where the pictures agree.
     """
     mean = (a + b) / 2
     inside = np.s_[MARGIN:-MARGIN, MARGIN:-MARGIN]

@@ -219,7 +219,7 @@ def _found(
 
 
 def close_box(view: View, general: GeneralLocation) -> BoundingBox | None:
-    """Return the box of a general location as this view shows it, or None if the picture shows too little of it."""
+    """Return the box of a general location in this view, or None if too little of the box is in the picture."""
     uv = view.project(np.array(general.corners))
     left, top = (int(n) for n in np.floor(uv.min(axis=0)))
     right, bottom = (int(n) for n in np.ceil(uv.max(axis=0)))

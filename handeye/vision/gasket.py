@@ -1,4 +1,4 @@
-"""Inspects a gasket by comparing pictures taken before and after the gasket was laid on.
+"""Inspects a gasket by comparing two pictures: one taken before the gasket was laid on the base, one taken after.
 
 In the difference of the pictures the gasket is a bright blob with two dark holes. There is little difference wherever
 the base or the gasket has a hole. A displaced gasket therefore shows the *union* of each of its holes and the hole of

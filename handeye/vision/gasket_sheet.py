@@ -36,7 +36,7 @@ _CIRCLE: Final = np.column_stack([np.cos(_TURNS), np.sin(_TURNS), np.zeros(64)])
 
 
 def bare(before: Picture, after: Picture, view: View, part: Part, large: list[Array]) -> float:
-    """Return the greatest area (m2) that the gasket leaves bare within a square with the side WINDOW.
+    """Return the greatest area (m2) that the gasket leaves bare within any square with sides of length WINDOW.
 
     `large` are the centres (in metres, each of shape (3,)) of the two large holes of the base, as found in the picture
     without the gasket.

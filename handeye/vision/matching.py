@@ -1,4 +1,4 @@
-"""Decides whether a part stands in a picture as it stood in an earlier picture.
+"""Decides whether a part has the same place in a picture as in an earlier picture.
 
 Nothing is assumed about the appearance of the part: the earlier picture is the model. A vidicon displaces each picture
 slightly, so the part is compared with its surroundings. The shift of the part relative to its surroundings is measured

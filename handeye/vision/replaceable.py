@@ -1,4 +1,4 @@
-"""The vision functions that a calling program can replace with its own functions, and wrappers for those.
+"""The vision functions that a calling program can replace, and wrappers for the program's own functions.
 
 A wrapper checks the result of the caller's function. The wrapper also computes where the part would appear in the
 picture if it were at the place that the function returned. Reports mark this place.

@@ -321,8 +321,8 @@ def stale_rounds(graph: Graph) -> Iterator[StaleRound]:
 def _anew(
     graph: Graph, circles: Circles, jump: int, target: int | None, begins: set[int]
 ) -> Iterator[StaleRound]:
-    """Yield the jump back if it restarts the search or count in every round. If another path leads to the end,
-    yield nothing.
+    """Yield the jump back if it restarts the search or count in every round. If another path leads from `target` to
+    the end of the program, or back to the jump, yield nothing.
     """
     if graph.leads(target, None, without=begins) or graph.leads(target, jump, without=begins):
         return

@@ -95,7 +95,9 @@ def _known(declared: dict[str, list[Name]], taught: Taught) -> dict[Refers, set[
 
 
 def _twice(what: str, names: list[Name], taken: Mapping[str, str]) -> Iterator[Diagnostic]:
-    """Report names that are defined again. `taken` gives, for some names, the reason why these names are not free."""
+    """Report names that are defined again. `taken` gives, for each name that is not free, the reason why it is not
+    free.
+    """
     first: dict[str, Name] = {}
     for name in names:
         before, why = first.setdefault(name.text, name), taken.get(name.text)

@@ -57,8 +57,8 @@ def branches(arm: ArmModel, X_WT: Pose, start: Array | None) -> tuple[Array, NDA
 
 
 def _nearest_position(arm: ArmModel, b: _Build, X_WT: Pose, held_at: Array) -> tuple[Array, Array]:
-    """Find the joint positions that bring the hand nearest to each of some poses. Returns the positions, shape (...,
-    n), and the remaining displacement, shape (..., 3), in m.
+    """Find the joint positions that bring the hand nearest to each of the given poses. Returns the positions, shape
+    (..., n), and the remaining displacement, shape (..., 3), in m.
     """
     q = np.zeros((*X_WT.shape[:-2], len(arm.joints)))
     q[..., b.held] = held_at

@@ -27,9 +27,9 @@ def nearest_within(arm: ArmModel, X_WT: Pose, starts: Iterable[Array]) -> Array 
     """Find joint positions within the limits that bring the hand to within `WRITTEN` of a pose. Returns None if there
     are no such positions.
 
-    The search begins at the solutions in `starts`, and then again slightly beside each solution. The second search is
-    needed for a solution in which joint axes are in line: from there, no first step leads towards some of the nearby
-    poses.
+    The first search begins at the solutions in `starts`; a second search begins slightly beside each of them. The
+    second search is needed for a solution in which joint axes are in line: from there, no first step leads towards
+    some of the nearby poses.
     """
     turn = np.where(constants(arm).prismatic, 0.0, 2 * np.pi)
     turned = [q - turn * np.round((q - arm.middle) / (2 * np.pi)) for q in starts]

@@ -1,4 +1,4 @@
-"""Results of inverse kinematics, and the choice between solutions: the solution within the limits that the arm
+"""Results of inverse kinematics, and the choice between solutions: of those within the limits, the one that the arm
 reaches soonest.
 """
 
@@ -47,8 +47,8 @@ distance.
 
 
 def choose(arm: ArmModel, found: list[list[float]], near: list[float]) -> IKResult:
-    """Choose the solution within the limits that the arm reaches soonest from `near`. If no solution is within the
-    limits, return the failure of the solution that is least beyond the limits.
+    """Of the solutions within the limits, choose the one that the arm reaches soonest from `near`. If no solution is
+    within the limits, return the failure of the solution that is least beyond the limits.
     """
     good = [q for q in found if all(map(_inside, arm.joints, q))]
     if good:
@@ -61,8 +61,8 @@ def choose(arm: ArmModel, found: list[list[float]], near: list[float]) -> IKResu
 
 
 def shared(first: Joint, last: Joint, sense: float, one: float, other: float) -> list[tuple[float, float]]:
-    """Return all pairs of positions of two joints, each within its limits, that together turn the hand as far as the
-    positions `one` and `other`. The axes of the two joints are in line.
+    """Return all pairs of positions of two joints, each within its limits, that together turn the hand by the same
+    angle as the positions `one` and `other`. The axes of the two joints are in line.
 
     If `sense` is positive, both joints turn the hand in the same direction; otherwise, in opposite directions. There
     is one pair for each possible number of whole turns. The first joint stays at the position `one` if the last joint

@@ -55,7 +55,7 @@ def executed(plan: RelayPlan, state: RelayCore) -> list[LegStep]:
 
 
 def own_legs(plan: RelayPlan, state: RelayCore) -> tuple[Leg, ...]:
-    """Return the unbroken series of legs of one program that ends with the leg that has the arm."""
+    """Return the leg that has the arm, after the legs of the same program that directly precede it."""
     all_legs, here = legs(plan), last_leg(state)
     first = here
     while first and all_legs[first - 1].file == all_legs[here].file:
@@ -79,8 +79,8 @@ def check_order(plan: RelayPlan, state: RelayCore, undoing: ReversalOrder) -> No
 
 
 def own_order(plan: RelayPlan, state: RelayCore, undoing: ReversalOrder) -> ReversalOrder | None:
-    """Limit an order to undo steps to the program that has the arm: to steps that this program has executed since it
-    took the arm over. The returned order has this program's own step numbers. Returns None if there are no such steps.
+    """Reduce an order to undo steps: keep only the steps that the program that has the arm has executed since it took
+    the arm over. The returned order has this program's own step numbers. Returns None if there are no such steps.
     """
     own, done = own_legs(plan, state), executed(plan, state)
     before = sum(each.step < own[0].first for each in done)

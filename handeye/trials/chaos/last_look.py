@@ -1,7 +1,7 @@
 """Decides whether a fault spoiled finished work only after the last look of the program at this work.
 
-No program can notice such a fault. The steps that look at some work are known from the proof of the program
-(`handeye.proof`): they show a claim on which a finding of the referee rests.
+No program can notice such a fault. The proof of the program (`handeye.proof`) names the steps that look at the work:
+these steps show a claim on which a finding of the referee rests.
 """
 
 from collections.abc import Iterable, Mapping, Sequence
@@ -30,8 +30,9 @@ class LastLook:
         events: Sequence[AnyEvent],
         begun: float,
     ) -> bool:
-        """Return True if one of the faults spoiled the work of a failed finding after the last look at it, or too
-        little to be noticed. The faults began at `begun` (s); `events` are those of the run since then.
+        """Return True if one of the faults spoiled the work that a failed finding concerns, and did so after the
+        program's last look at this work, or by too little to be noticed. The faults began at `begun` (s); `events` are
+        those of the run since then.
         """
         return any(
             name.startswith(work.findings) and self._unseen(name, finding, work, events, begun + work.delay)

@@ -181,8 +181,9 @@ def _sound(carried: ScheduleRun) -> Iterator[Violation]:
 
 
 def _silent(schedule: Schedule, carried: ScheduleRun, start: Checkpoint) -> tuple[list[str], list[str]]:
-    """Return sentences on the failed findings on work that the program considers right: first those that it should
-    have noticed, and then those that faults of the schedule made fail after the program's last look.
+    """Return sentences on the failed findings about work that the program considers right. First come the failures
+    that the program should have noticed, then the failures that faults of the schedule caused after the program's last
+    look.
 
     A completed stage is judged by the findings that must hold from its end on. If such a finding fails, the run
     continues, because a later check of the program may notice the failure. The failure is silent only if the
@@ -211,7 +212,9 @@ def _silent(schedule: Schedule, carried: ScheduleRun, start: Checkpoint) -> tupl
 
 
 def _late(failed: Findings, schedule: Schedule, runner: Runner, start: Checkpoint) -> set[str]:
-    """Return the names of the failed findings that faults of the schedule made fail after the program's last look."""
+    """Return the names of the findings that failed because faults of the schedule spoiled the work after the program's
+    last look.
+    """
     task, plan, world = runner.task, runner.setup.plan, runner.setup.world
     kinds = [task.faults(world).kind(fault.name) for fault in schedule.given(task.faults(world))]
     spoiled = [kind.spoils for kind in kinds if kind.spoils is not None]

@@ -40,8 +40,8 @@ def _usual(kind: FaultKind, stage: int) -> Fault:
 
 
 def calls_of(steps: Sequence[int], program: Program, graph: OutcomeGraph) -> tuple[list[str], set[int]]:
-    """Return the first calls to the operator after some steps have failed, and the errors with which these steps stop
-    the arm.
+    """Return what follows if the given steps fail: the first calls to the operator, and the errors with which the
+    steps themselves stop the arm.
     """
     changed, calls, stops = set(steps), list[str](), set[int]()
     waiting: list[int] = []

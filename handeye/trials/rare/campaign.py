@@ -111,7 +111,7 @@ class Campaign:
     def run(
         self, places: Sequence[tuple[str, int]], points: Sequence[Point], *, kept: bool = True
     ) -> tuple[RareRow, ...]:
-        """Run the worlds of some points. `places` gives the condition of each point, and its number within this
+        """Run the worlds of the given points. `places` gives the condition of each point, and its number within this
         condition. If `kept` is True, worlds in which the program fails are kept. Raises InvalidInput if a run ended
         because this computer failed, so that its margin is unknown.
         """

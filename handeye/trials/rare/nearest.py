@@ -79,8 +79,8 @@ def nearest(campaign: Campaign, kind: FailureKind, count: int, rounds: int) -> l
 
 
 def simplified(numbers: Array, groups: Sequence[Sequence[int]], tries: int) -> Generator[Array, bool, None]:
-    """Yield at most `tries` worlds that deviate less from the middle. For each world, the caller answers True if the
-    program still fails in it.
+    """Yield at most `tries` worlds that deviate less from the middle than the failing world does. For each world, the
+    caller answers True if the program still fails in it.
     """
     kept = numbers.copy()
     parts = deque(list(group) for group in groups)
@@ -102,8 +102,8 @@ def simplified(numbers: Array, groups: Sequence[Sequence[int]], tries: int) -> G
 
 
 def pushes(campaign: Campaign, kind: FailureKind, found: Sequence[NearWorld]) -> list[Push]:
-    """Return how the quantities push the program to fail. The quantities that more of the nearest worlds need come
-    first.
+    """Return how the quantities push the program to fail, sorted by the number of the nearest worlds in which each
+    quantity must deviate, the greatest number first.
     """
     mine = [each for each in campaign.failing if each.kind == kind]
     if not mine:

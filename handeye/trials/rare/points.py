@@ -20,7 +20,9 @@ class Point:
 
 
 class WorldSpace:
-    """The quantities that vary between the worlds of a batch, and the standard normal numbers behind them."""
+    """The quantities that vary between the worlds of a batch, and the standard normal numbers from which they are
+    computed.
+    """
 
     def __init__(self, variation: Variation, base: WorldSpec) -> None:
         """Make the space of the worlds that differ from `base` only in their seed. Raises InvalidInput if the base
@@ -72,7 +74,7 @@ class WorldSpace:
         return sorted(found.values(), key=len, reverse=True)
 
     def told(self, numbers: Array, only: Iterable[int]) -> Mapping[str, float]:
-        """Return the deviations of some quantities, by name, the greatest first."""
+        """Return the deviations of the given quantities, by name, the greatest first."""
         away = self.deviations(numbers)
         ordered = sorted(only, key=lambda number: -abs(away[number]))
         return {self.names[number]: round(float(away[number]), 3) for number in ordered}

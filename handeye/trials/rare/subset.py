@@ -84,7 +84,7 @@ def subset_simulation(
     `most`.
 
     Args:
-        first: worlds drawn independently; every level has the same number of worlds.
+        first: worlds drawn independently; each further level has as many worlds.
         stream: returns the random number generator of a level, given by its number.
     """
     chains = [[_State(*each)] for each in zip(first, margins(0, first), strict=True)]

@@ -15,8 +15,8 @@ FORM: Final = "SENSOR=READING, SENSOR=READING@MOTOR:POSITION or SENSOR=READING@S
 
 
 def sensed(text: str) -> Stimulus:
-    """Parse what a sensor or an interlock reads. The value holds either always, or only while a motor is at a position
-    or farther from 0, or only from a given time on. Raises BadArgument.
+    """Parse what a sensor or an interlock reads. The value holds always, or from a given time on, or while a motor is
+    at least as far from 0 as a given position. Raises BadArgument.
     """
     match = _FORM.fullmatch(text)
     if match is None or not all(fits(int(each or 0)) for each in (match[2], match[4])):

@@ -198,7 +198,8 @@ class BorrowedArm(PerfectMotors):
 def borrowed(
     spec: WorldSpec, at: tuple[float, float], poll: Callable[[], None] = lambda: None
 ) -> BorrowedArm:
-    """Return the Stanford arm over the table of a world of the water pump, whose joint friction has been measured.
+    """Return the Stanford arm over the table of a world of the water pump. The arm has already measured the friction
+    of its joints.
 
     Args:
         at: where the board's corner X1 = 0, Y1 = 0 lies on the table (mm).

@@ -1,5 +1,5 @@
-"""Finds which places, limits and speeds hold at each line of a single task, by whichever path the task reaches the
-line.
+"""Finds the places, limits and speeds that hold at each line of a single task, no matter on which path the task
+reaches the line.
 """
 
 from collections.abc import Callable, Mapping, Sequence

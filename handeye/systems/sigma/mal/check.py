@@ -56,8 +56,8 @@ def checked(source: Source) -> tuple[list[Line], list[Diagnostic]]:
 
 
 def in_order(lines: Sequence[Line]) -> list[Line]:
-    """Sort lines by their numbers. Each line belongs to the task whose TASK statement is the last one in this order,
-    at this line or before it.
+    """Sort lines by their numbers. Each line belongs to the task of the last TASK statement, in this order, that is at
+    the line or before it.
     """
     ordered, task = [], MAIN
     for line in sorted(lines, key=lambda line: line.number):

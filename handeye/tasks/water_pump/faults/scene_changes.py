@@ -1,4 +1,4 @@
-"""Changes of the scene behind the faults of parts: a part is removed, displaced, or has the wrong shape."""
+"""Changes of the scene that represent the faults of parts: a part is removed, displaced, or has the wrong shape."""
 
 from __future__ import annotations
 

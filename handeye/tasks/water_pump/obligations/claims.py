@@ -38,7 +38,7 @@ _CORNERS: Final = (1, 2, 5, 4)
 
 
 class PumpClaims:
-    """The claims for a pump with some number of screws. Holes and pins are numbered from 0."""
+    """The claims for a pump with a given number of screws. Holes and pins are numbered from 0."""
 
     def __init__(self, screws: int) -> None:
         self.places = PumpPlaces(screws)
@@ -240,8 +240,8 @@ class PumpClaims:
         return Gripped(where=low), Released(where=low, least=0.5 * INCH)
 
     def gasket(self) -> Claim:
-        """Return the claim that two pictures, taken before and after the gasket was laid on, show the gasket in its
-        place.
+        """Return the claim that two pictures, taken before and after the gasket was laid on the base, show the gasket
+        in its place.
         """
         laid, before = self.places.laid, Taken(role="before")
         pump = Region(at=self.places.on_pump(0.0, 0.0), radius=0.5 * INCH, height=Limits(-0.01, 0.01))

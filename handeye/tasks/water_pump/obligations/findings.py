@@ -9,7 +9,7 @@ from handeye.tasks.water_pump.obligations.claims import PumpClaims
 
 
 def obligations(screws: int) -> tuple[Obligation, ...]:
-    """Return the obligations for a pump with some number of screws."""
+    """Return the obligations for a pump with a given number of screws."""
     return (
         *_sensed(screws),
         *(Obligation(finding=name, rests=why) for name, why in _UNSENSED.items()),

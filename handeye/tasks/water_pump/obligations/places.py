@@ -28,7 +28,7 @@ PRESSED: Final = 0.006 * INCH  # by which six screws press the layers together
 
 @dataclass(frozen=True)
 class PumpPlaces:
-    """Regions of the pump's cell, for a pump with some number of screws."""
+    """Regions of the pump's cell, for a pump with a given number of screws."""
 
     screws: int
 

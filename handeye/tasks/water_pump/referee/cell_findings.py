@@ -207,7 +207,7 @@ def _put_away(measured: SettledState, hidden: Sequence[int]) -> Finding:
 
 
 def _speed(measured: SettledState, bodies: NDArray[np.intp], kind: str) -> Finding:
-    """Judge the greatest speed of some bodies."""
+    """Judge the greatest speed of the given bodies."""
     speeds = np.zeros(measured.model.nbody)
     speeds[bodies] = [1e3 * measured.speed(int(body)) for body in bodies]
     return _greatest(measured, speeds, limits.STILL, "mm/s", f"speed of the fastest {kind}")
@@ -223,8 +223,8 @@ def _greatest(
 
 
 def _hand(measured: SettledState, parts: Sequence[str]) -> Finding:
-    """Judge the distance of the hand from the nearest of some parts. Shapes that are fixed to a part belong to that
-    part. Distances are measured up to twice the limit.
+    """Judge the distance of the hand from the nearest of the given parts. Shapes that are fixed to a part belong to
+    that part. Distances are measured up to twice the limit.
     """
     model = measured.model
     solid = (model.geom_contype | model.geom_conaffinity) != 0

@@ -29,7 +29,7 @@ _TRIANGLE: Final = (0, 2, 4)  # three of the places in a grid of two rows of thr
 def _looks(
     chosen: tuple[int, ...], lens: float, x: float, y: float, dx: float, dy: float, heights: tuple[float, ...]
 ) -> Iterator[CalibrationLook]:
-    """Yield views of some places of a grid about (x, y). In each view, the lamp is shown left and right, high
+    """Yield views of places on a grid about (x, y). In each view, the lamp is shown left and right, high
     and low. All lengths are in inches.
 
     The camera is aimed again for each view, because each reading of its pan and tilt has a different error. Two lamp

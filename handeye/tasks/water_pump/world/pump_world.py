@@ -138,7 +138,7 @@ def _parts(world: World) -> dict[str, Placing]:
 
 
 def _in_play(world: World, name: str, play: float) -> Placing:
-    """Return the placement error called `name`. The world gives x and y of this error as fractions of a play (m)."""
+    """Return the placement error called `name`. The world gives x and y of this error as fractions of `play` (m)."""
     share = _placing(world, name)
     return replace(share, x=share.x * play, y=share.y * play)
 
