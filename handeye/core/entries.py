@@ -82,8 +82,9 @@ class Entry(Record, frozen=True, kw_only=True):
     """
     orders: str = ""
     """`module:NAME` of a function that takes the name and text of a program. It returns the problems that the program
-    has in at least one order of its concurrent tasks, the worst first. Each problem is a pair: True if the program
-    does not notice the problem, and a sentence. This text is empty if the system cannot try every order.
+    has in at least one order of its concurrent tasks, the worst first. Each problem is a pair of a truth value and a
+    sentence; the value is True if the program does not notice the problem. `orders` is empty if the system cannot try
+    every order.
     """
     events: str = ""  # `module:NAME` of a tuple: the kinds of events that only this system has
     languages: dict[str, str] = field(default_factory=dict)  # `OwnLanguage` by file ending

@@ -50,11 +50,11 @@ class RareRow(Row, frozen=True, kw_only=True):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Margin:
-    """The margin of a run, and the part that determines the margin."""
+    """The margin of a run before one kind of failure (a stop or a silent end), and the part that determines it."""
 
     value: float
     """A value of 1 means that the run had the reserve that runs usually have. A value of 0 or less means that the run
-    failed in this way. An infinite value means that the run gives no information about this kind of failure.
+    failed in that way. An infinite value means that the run gives no information about this kind of failure.
     """
     part: str
 
