@@ -84,8 +84,8 @@ def bench_agents(
         bool,
         Parameter(
             negative="",
-            help="Check the tasks: in the public worlds, the reference must be accepted everywhere, and the trivial "
-            "program must not pass.",
+            help="Check the tasks: the referee must accept the reference solution in all public worlds, and the "
+            "trivial program must not pass.",
         ),
     ] = False,
     solutions: Annotated[
@@ -274,13 +274,13 @@ def _tell(task: str, verdict: "Verdict") -> None:
 
 
 def _seeds(task: "BenchTask", hidden: "HiddenSeeds | None") -> list[int]:
-    """The seeds of the worlds in which a task is judged. Raises BadArgument if the file of hidden seeds has none for
-    the task.
+    """The seeds of the worlds in which a task is judged. Raises BadArgument if the file of hidden seeds has no seeds
+    for the task.
     """
     if hidden is None or task.file.orders:
         return task.file.public
     if not hidden.seeds.get(task.name):
-        raise BadArgument(f"the file of hidden seeds has none for the task {task.name}")
+        raise BadArgument(f"the file of hidden seeds has no seeds for the task {task.name}")
     task.check_hidden(hidden.salt, hidden.seeds[task.name])
     return hidden.seeds[task.name]
 

@@ -101,8 +101,8 @@ def base_vision_trials(
     """Find the base of the pump on the belt, at many poses: how often it is found, how accurately, and how often in
     the wrong place.
 
-    In every world the arm first moves its lamp through the camera's view, as in a run. This takes most of the time of
-    a trial; with `--worlds`, several poses share a world and its calibration.
+    In every world, the camera is first calibrated, as in a run: the arm moves its lamp through the camera's view. The
+    calibration takes most of the time of a trial; with `--worlds`, several poses share a world and its calibration.
 
     Exit code 0: no wrong pose was accepted; 3: a wrong pose was accepted.
     """

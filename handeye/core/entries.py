@@ -73,17 +73,18 @@ class Entry(Record, frozen=True, kw_only=True):
     sweeps: dict[str, str] = field(default_factory=dict)  # `module:NAME` of a `Sweep`, by kind
     faults: str = ""
     """`module:NAME` of a function that takes a task's name and a world. It returns the kind of sweep, and the work
-    that `handeye faults` does for each fault. Empty if the system has no such trials.
+    that `handeye faults` does for each fault. Empty if the system has no trials of faults.
     """
     programs: str = ""
     """`module:NAME` of a function that returns the plan with which a program does a task. The function takes the name
     of the task, the name and text of the program, and a variant of the task (empty for the usual one). This field is
-    empty if the system has no such tasks, or if it runs plans of motions.
+    empty if the system has no tasks for programs, or if the system runs plans of motions.
     """
     orders: str = ""
     """`module:NAME` of a function that takes the name and text of a program. It returns the problems that the program
     has in at least one order of its concurrent tasks, the worst first. Each problem is a pair: True if the program
-    does not notice the problem, and a sentence. This text is empty if the system cannot try every order.
+    does not notice the problem, and a sentence about the problem. `orders` is empty if the system cannot try every
+    order.
     """
     events: str = ""  # `module:NAME` of a tuple: the kinds of events that only this system has
     languages: dict[str, str] = field(default_factory=dict)  # `OwnLanguage` by file ending

@@ -54,7 +54,8 @@ class Margin:
 
     value: float
     """A value of 1 means that the run had the reserve that runs usually have. A value of 0 or less means that the run
-    failed in this way. An infinite value means that the run gives no information about this kind of failure.
+    had the kind of failure for which the margin was computed. An infinite value means that the run gives no
+    information about this kind of failure.
     """
     part: str
 
