@@ -171,7 +171,7 @@ def _rotor(measured: SettledState) -> Findings:
         "rotor_place": mm(
             measure.rotor_deviation(measured),
             limits.ROTOR_PLACE,
-            "greatest distance of the rotor and its crank pin from their nominal places",
+            "greatest distance of the rotor or its crank pin from its nominal place",
         ),
         "rotor_lean": deg(
             measure.rotor_lean(measured), limits.ROTOR_LEAN, "tilt of the rotor relative to the top"
