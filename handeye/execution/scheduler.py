@@ -106,7 +106,7 @@ class Agenda(MutableRecord, Generic[Time], kw_only=True):
         if duration < 0:
             raise BadArgument(f"{task} cannot wait for a negative time")
         if again == _MOST_AT_ONCE:
-            raise Deadlock({task: "a delay of 0 s, again and again, so that no time passes"})
+            raise Deadlock({task: "nothing, again and again, although no time passes"})
         self.due[task] = (time + duration, 0) if duration else (time, again + 1)
 
     def wait(self, task: str, name: str) -> None:
