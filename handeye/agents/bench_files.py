@@ -24,8 +24,8 @@ class Derived(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """A file that is derived from another."""
 
     source: str = msgspec.field(name="from")
-    """`FOLDER/NAME` for another file of the task, `TASK/FOLDER/NAME` for a file of another task, or `plans/NAME` for a
-    program included with handeye.
+    """Name of the file from which this file is derived: `FOLDER/NAME` for another file of the task, `TASK/FOLDER/NAME`
+    for a file of another task, or `plans/NAME` for a program included with handeye.
     """
     changes: list[tuple[str, str]] = []
     """Changes, in their order. Each is a pair: a text that occurs once, and the text that replaces it."""

@@ -177,7 +177,8 @@ class Back(Request, frozen=True, kw_only=True):
         str,
         Meta(
             max_length=200,
-            description="Go back to the beginning of this stage. If it is empty, the run goes back by `steps` steps.",
+            description="Go back to the beginning of this stage. If no stage is given, the run goes back by `steps` "
+            "steps.",
         ),
     ] = ""
 

@@ -29,8 +29,8 @@ class Tool:
 TOOLS: Final = (
     Tool(
         name="docs", takes=requests.Docs, act=Toolbox.docs,
-        about="Read the manual: the index, or a page. Start with `language`, then `tutorial`; each instruction has a "
-        "page (search). Also shows included scripts and taught files (insertion.al, insertion.toml).",
+        about="Read the manual: the index, or a page. Start with `language`, then `tutorial`; each instruction has "
+        "a page, such as `search`. Also shows included scripts and taught files (insertion.al, insertion.toml).",
     ),
     Tool(
         name="check", takes=requests.Check, act=Toolbox.check,

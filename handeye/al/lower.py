@@ -298,7 +298,10 @@ class _Lowerer:
         if inner is not None:
             there = Label(span=inner.span, text="the label is inside a macro")
             message = f"label {quoted(label.text)} belongs to a macro"
-            help = "labels of a macro are local to it; a macro ends with the first blank line"
+            help = (
+                "a jump from outside a macro cannot lead to a label in the macro; a macro ends with the first "
+                "blank line"
+            )
             self.problem("unknown-label", message, label, there, *uses(label), help=help)
             return
         message = f"there is no label {quoted(label.text)}"

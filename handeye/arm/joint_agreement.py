@@ -14,9 +14,9 @@ from handeye.core.record import Record
 
 MAX_TURN_GAP: Final = 0.0063
 MAX_SLIDE_GAP: Final = 0.0011
-"""Difference between the two sensors of a joint (rad or m) that the waviness of a potentiometer can cause: twice
-the largest amplitude of the waviness. At the high level of errors, this amplitude is twice the stated one (.09
-degrees, .011 in).
+"""Difference between the two sensors of a joint (rad or m) that the waviness of a potentiometer can cause: twice the
+largest amplitude of the waviness. The stated amplitude is .09 degrees or .011 in; at the high level of errors, the
+amplitude is twice as large.
 """
 READING_STEPS: Final = 1.5
 """Permitted difference between two readings of one position, in converter steps: half a step for each reading, and the
@@ -39,8 +39,8 @@ times this factor. The factor is our choice.
 
 
 SINGULAR: Final = 0.05
-"""If the joints move the hand in some direction by less than this fraction of the largest movement, this direction is
-left out when a blow is estimated from the joints. The fraction is our choice.
+"""When a blow is estimated from the joints, some directions are left out: those in which the joints move the hand by
+less than this fraction of the largest movement. The fraction is our choice.
 """
 REST_STEPS: Final = 4
 """Tolerance, in converter steps, for a change of the potentiometer reading while the brakes are set and the
@@ -57,7 +57,7 @@ is examined more closely. Our choice: of 278 measurements in three runs without 
 STILL_STEPS: Final = 2.0
 """Tolerance, in converter steps, for the median deviation of the rate readings of a joint that is held still.
 
-One of the two steps is for rounding, by which the reading of a steady rate deviates by at most one step; the stated
+One of the two steps is for rounding: the rounded reading of a steady rate deviates by at most one step. The stated
 noise is only .03 steps. The second step is for an arm that creeps.
 """
 

@@ -41,7 +41,7 @@ class AxesState(Record, frozen=True, kw_only=True):
     left: int  # physics steps of the period that are left
     powered: bool = True
     latched: dict[str, tuple[float, ...]]
-    """For each latched channel, its first values since it was cleared that were not all zero."""
+    """For each latched channel: the first values that were not all zero since the channel was cleared."""
 
 
 class BenchAxes(Axes, Mechanism[AxesState]):

@@ -29,9 +29,9 @@ TURRET: Final = 20.0  # s for which the turret turns
 SLEW: Final = 5 * DEGREE  # rad/s of pan and of tilt, which turn together
 REFOCUS: Final = 0.0347
 """Speed of refocusing, in 1/m per second: a focus ring turns in proportion to the reciprocal of the distance. The
-paper gives 90 s for all lens changes and focusing. With these rates, the camera's movements and pictures for one pump
-take 90 s: 40 s for the turret, 12 s for turning by 60 degrees, 36 s for refocusing by 1.25 1/m, and 2 s for four
-pictures. Section 6 of the layout study divides the 90 s in this way.
+paper gives 90 s for all lens changes and focusing. With `TURRET`, `SLEW` and `REFOCUS`, the camera's movements and
+pictures for one pump take 90 s: 40 s for the turret, 12 s for turning by 60 degrees, 36 s for refocusing by 1.25 1/m,
+and 2 s for four pictures. Section 6 of the layout study divides the 90 s in this way.
 """
 
 

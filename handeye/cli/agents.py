@@ -84,8 +84,8 @@ def bench_agents(
         bool,
         Parameter(
             negative="",
-            help="Check the tasks: in the public worlds, the reference must be accepted everywhere, and the trivial "
-            "program must not pass.",
+            help="Check the tasks: the referee must accept the reference solution in all public worlds, and the "
+            "trivial program must not pass.",
         ),
     ] = False,
     solutions: Annotated[
@@ -99,8 +99,8 @@ def bench_agents(
         Literal["verdict", "errors", "trace"] | None,
         Parameter(
             help="What the entrant learns between two rounds about its program in the public worlds. verdict: the "
-            "verdict in each world; errors: also the errors, and what the referee measured where the program is "
-            "accepted; trace: also what each step did. Default: verdict; with --try: errors."
+            "verdict in each world; errors: also the errors, and what the referee measured in the worlds in which "
+            "it accepts the program; trace: also what each step did. Default: verdict; with --try: errors."
         ),
     ] = None,
     rounds: Annotated[
@@ -274,13 +274,13 @@ def _tell(task: str, verdict: "Verdict") -> None:
 
 
 def _seeds(task: "BenchTask", hidden: "HiddenSeeds | None") -> list[int]:
-    """The seeds of the worlds in which a task is judged. Raises BadArgument if the file of hidden seeds has none for
-    the task.
+    """The seeds of the worlds in which a task is judged. Raises BadArgument if the file of hidden seeds has no seeds
+    for the task.
     """
     if hidden is None or task.file.orders:
         return task.file.public
     if not hidden.seeds.get(task.name):
-        raise BadArgument(f"the file of hidden seeds has none for the task {task.name}")
+        raise BadArgument(f"the file of hidden seeds has no seeds for the task {task.name}")
     task.check_hidden(hidden.salt, hidden.seeds[task.name])
     return hidden.seeds[task.name]
 

@@ -1,4 +1,4 @@
-"""Commands that make the arm undo its work: dismantle, and its trials."""
+"""The command that makes the arm undo its work: dismantle."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Final

@@ -51,7 +51,7 @@ def docs(
 
 
 def _say_where_links_lead(page: Path, folder: Path) -> None:
-    """Say how to open a page to which this page links, if there is one."""
+    """If the page links to another page, say how to open that page."""
     linked = next(linked_pages(page, folder), None)
     if linked is not None:
         note(f"to open a linked page: `handeye docs {linked}`; the links are relative to {page.parent}")

@@ -38,8 +38,8 @@ def exercise(
     first_seed: Annotated[
         WholeNumber | None,
         Parameter(
-            help="Try your program in other worlds: with as many seeds, beginning with this one. Default: the worlds "
-            "of the exercise."
+            help="Try your program in other worlds: as many as the exercise has, but with seeds that begin with "
+            "this one. Default: the worlds of the exercise."
         ),
     ] = None,
     jobs: Annotated[WholeNumber, Parameter(help="Number of processes that work at the same time.")] = 2,

@@ -69,7 +69,7 @@ def faults(
     (`unbraked`), or it reported success although the pump is wrong (`silent`).
 
     A whole run takes one to three CPU minutes; the time left is shown on standard error. Ctrl-C stops the command and
-    prints the runs that have finished; with --out, the same command continues where it stopped. To add runs with other
+    prints the runs that have finished. If you gave --out, repeat the command to continue. To add runs with other
     faults in the same worlds, give the command again with these faults and the same folder.
 
     Exit code 0: every fault was detected; 1: no trial finished; 3: a fault was undetected; 2: bad input; 130:

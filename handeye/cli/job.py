@@ -78,7 +78,9 @@ class Job:
     referee: bool = False
     listening: Sequence[Observer] = ()  # Observers that the system's own command adds
     then: Sequence[Then] = ()
-    """What to do, in this order: each step begins when the referee has accepted the work before it."""
+    """What the arm does after the program has ended, in this order. The arm begins the next item only if the referee
+    has accepted the work so far.
+    """
     planning_cpu_s: float = 0.0
 
 

@@ -49,8 +49,9 @@ def mutant_trials(
     another check catch the faults for which the changed check was meant?
 
     If `handeye check --prove` accepts a mutant, the mutant runs from the beginning of its stage, once with each fault
-    for which the missing check exists. The mutant is `caught` if it stops, `silent` if it reports success with wrong
-    work, and `unnoticed` if all runs end with the right work. If there is no such fault, the mutant is `not run`.
+    for which the changed check is meant. The mutant is `caught` if it stops, `silent` if it reports success with wrong
+    work, and `unnoticed` if all runs end with the right work. If the changed check is meant for no known fault, the
+    mutant is `not run`.
 
     Exit code 0: no mutant was silent; 1: no trial finished; 3: a mutant was silent; 2: bad input; 130: interrupted.
     """
@@ -86,7 +87,7 @@ def mutant_trials(
 
 
 def _chosen(made: "list[Mutant]", only: list[str] | None) -> "list[Mutant]":
-    """The mutants with one of these texts in their names; all mutants if no texts are given."""
+    """The mutants whose names contain at least one text of `only`; all mutants if `only` has no text."""
     for text in only or ():
         if not any(text in each.name for each in made):
             raise NoSuchName(f"no mutant has {quoted(text)} in its name; --list lists the mutants")

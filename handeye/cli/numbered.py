@@ -51,7 +51,7 @@ def explain_word(
     """Explain a word of a language; without a word, list the usages of all words under their headings.
 
     Args:
-        noun: what the word should be, with its article.
+        noun: what the word is expected to be, such as `a command of ML`.
         command: the command that lists all words.
     """
     if word is None:

@@ -50,8 +50,8 @@ def script_at(given: Path, task_words: str | None) -> "tuple[Path, Task]":
 
 
 def plan_at(given: Path, task_words: str | None = None) -> Plan:
-    """The plan in the file `given`, the plan of the script in it, or else the plan of the program with the name
-    `given`.
+    """The plan of a file or of a program. If `given` is a file, the file contains the plan, or a script that is
+    compiled. If there is no such file, `given` is the name of the program.
 
     Raises:
         InvalidInput: there is no such plan for the task.

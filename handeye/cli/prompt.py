@@ -112,8 +112,8 @@ def _edit(words: Callable[[], Iterable[str]]) -> None:
 
 
 def completion(start: str, number: int, words: Iterable[str]) -> str | None:
-    """Return the completion of the typed text `start` with this number, counted from 0. Returns None if there are
-    fewer.
+    """Return one completion of the typed text `start`: the completion with the number `number`, from 0. Returns None
+    if there are fewer completions.
     """
     found = sorted({word for word in words if word.upper().startswith(start.upper())})
     return f"{found[number]} " if number < len(found) else None

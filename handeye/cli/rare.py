@@ -145,7 +145,7 @@ class SampleOptions:
         except BaseException:
             if folder is not None:
                 note(
-                    f"{counted(len(folder.rows), 'run')} saved in {self.out}; the same command continues from there"
+                    f"{counted(len(folder.rows), 'run')} saved in {self.out}; the same command continues the search"
                 )
             raise
         finally:

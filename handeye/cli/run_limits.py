@@ -13,8 +13,8 @@ if TYPE_CHECKING:
 
 
 def stops_of(listing: "Listing", *, to: str | None, until: str | None, breaks: list[str]) -> list["AnyStop"]:
-    """The conditions at which a run ends. Breakpoints are not among these conditions. They are parsed here, so that an
-    invalid breakpoint is refused before anything moves.
+    """The conditions at which a run ends. Breakpoints are not among these conditions. The function still parses the
+    breakpoints, so that an invalid breakpoint is refused before anything moves.
     """
     from handeye.debugger.breakpoints import breakpoint, stage_number, step_number
     from handeye.runs.advance import AfterStage, BeforeStep

@@ -182,12 +182,12 @@ def run(
 ) -> int:
     """Run a plan, or some of its stages, in the work cell of its task: straight through or step by step.
 
-    Give a stage by its number, its name, or part of its name. A later stage starts from its checkpoint; without one,
-    the stages before it run first.
+    Give a stage by its number, its name, or part of its name. A later stage starts from its checkpoint. If this
+    checkpoint is missing, the earlier stages run first.
 
-    Exit code 0: the program finished, or paused where asked; 1: it stopped and called the
-    operator; 3: the program reported success, but the referee (if it judges the run) disagrees; 2: bad input, or a
-    piped --step command was refused; 130: interrupted.
+    Exit code 0: the program finished, or paused where asked; 1: the program stopped and called the operator; 3: the
+    program reported success, but the referee (if it judges the run) disagrees; 2: bad input, or a piped --step command
+    was refused; 130: interrupted.
     """
     from handeye.cli.job import Job, work
     from handeye.cli.recorded_worlds import in_world_of

@@ -134,8 +134,7 @@ def carry_out_sweep(
     except BaseException:
         if folder is not None:
             note(
-                f"{counted(len(folder.rows), 'trial')} saved in {options.out}; the same command continues "
-                "from there"
+                f"{counted(len(folder.rows), 'trial')} saved in {options.out}; the same command continues the batch"
             )
         raise
     finally:

@@ -230,7 +230,7 @@ def _kept(file: Path | None) -> str:
     """Advice if the program has called the operator, but no person can answer."""
     if file is None:
         return "with --keep FILE, `handeye do` saves the cell at the end, and --from FILE continues from the saved cell"
-    return f"`handeye do --from {file}` continues from there"
+    return f"`handeye do --from {file}` continues from the saved cell"
 
 
 def _code(failed: "Answer | None") -> int:

@@ -49,7 +49,7 @@ def two_runs(a: Path | None, b: Path | None) -> tuple[Path, Path]:
 
 
 def trace_file(path: Path) -> Path:
-    """Return `path` itself if it is a file. If it is the folder of a run, return the path of the run's trace or, if
+    """Return `path` itself if it is a file. If `path` is the folder of a run, return the path of the run's trace or, if
     there is no trace, of its event list. Raises InvalidInput if the run has not begun.
     """
     from handeye.runs.folder import EVENTS, TRACE, check_holds_run

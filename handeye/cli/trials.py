@@ -101,8 +101,8 @@ def base_vision_trials(
     """Find the base of the pump on the belt, at many poses: how often it is found, how accurately, and how often in
     the wrong place.
 
-    In every world the arm first moves its lamp through the camera's view, as in a run. This takes most of the time of
-    a trial; with `--worlds`, several poses share a world and its calibration.
+    In every world, the camera is first calibrated, as in a run: the arm moves its lamp through the camera's view. The
+    calibration takes most of the time of a trial; with `--worlds`, several poses share a world and its calibration.
 
     Exit code 0: no wrong pose was accepted; 3: a wrong pose was accepted.
     """
@@ -218,10 +218,10 @@ def chaos_trials(
     The checks: the program never reports success with a wrong pump (`silent`); trace, events and state are the same to
     the byte as without interruptions (`resume`); the brakes are on after every stop (`brakes`); the trace can be read
     and says what happened (`trace`); nothing is lost on disk (`disk`); and no exception is raised (`error`). If a
-    schedule fails, the trial shortens it step by step, as long as it still fails, and then prints it as a command. If
-    a fault spoiled a part of the pump only after the program's last look at this part, the schedule is `unseen`
-    instead of silent. First, one complete run is made in each world. A complete run takes one CPU minute, and a
-    schedule takes some seconds.
+    schedule fails, the trial shortens the schedule step by step, as long as the shorter schedule still fails. The
+    trial then prints the shortest failing schedule as a command. If a fault spoiled a part of the pump only after the
+    program's last look at this part, the schedule is `unseen` instead of silent. First, one complete run is made in
+    each world. A complete run takes one CPU minute, and a schedule takes some seconds.
 
     Exit code 0: all checks passed; 3: a check failed; 2: bad input; 130: interrupted.
     """

@@ -23,9 +23,9 @@ def view(
     file: Annotated[
         Path | None,
         Parameter(
-            help="A plan made by `handeye plan` (.plan.json), or the name of a program; or the folder or trace of "
-            "a run, which is shown as its report. Default: the newest run in the folder `runs`; the plan of "
-            "the pump if there is no run, or if a world or --out is given."
+            help="A plan made by `handeye plan` (.plan.json), the name of a program, or the folder or trace of a "
+            "run. A run is shown as its report. Default: the newest run in the folder `runs`. If there is no run, "
+            "or if a world or --out is given, the default is the plan of the pump."
         ),
     ] = None,
     /,

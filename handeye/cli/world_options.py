@@ -154,8 +154,8 @@ class WorldOptions:
         int | None,
         Parameter(
             converter=whole,
-            help="Seed of the world, a whole number from 0 to 2^53 - 1: the seed determines where parts lie, and "
-            "every error. Default: 0.",
+            help="Seed of the world, a whole number from 0 to 2^53 - 1: the seed determines where the parts lie, "
+            "and the size of every error. Default: 0.",
         ),
     ] = None
     errors: Annotated[ErrorOptions, Parameter(name="*")] = ErrorOptions()

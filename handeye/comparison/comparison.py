@@ -34,8 +34,8 @@ class Condition(Record, frozen=True, kw_only=True):
     """A condition in which two runs differ, for example the seed."""
 
     what: str
-    """Name of the condition: `task`, `plan`, `arm`, `camera`, `seed` or another setting of the world, the name of a
-    quantity that was set, `version of ...`, or `own ...`.
+    """Name of the condition: `task`, `plan`, `arm`, `camera`, a setting of the world such as `seed`, a quantity that
+    was set, `version of ...`, or `own ...`.
     """
     a: str
     b: str

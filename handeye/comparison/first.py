@@ -148,7 +148,9 @@ class First:
     period: int | None = None  # servo period of the step, counted from 1; None outside servo periods
     differing: QuantityDifference
     next: tuple[AnyEvent | None, AnyEvent | None] = (None, None)
-    """The next event of each run, if these events differ. None for a run that ended, or whose step continued."""
+    """The next event of each run, if these events differ. None for a run that ended, or for a run whose step
+    continued.
+    """
 
     @property
     def place(self) -> Place | None:

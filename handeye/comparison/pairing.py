@@ -173,7 +173,7 @@ class Leg:
     """
     b: float
     places: tuple[Place | None, Place | None]
-    """The step of each run; None while the run waits, or before it begins."""
+    """The step of each run; None while the run waits, or before the run begins."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -27,7 +27,7 @@ _CAME_TO: Final[dict[Kind, str]] = {
     "broken off": "was recorded only in part",
 }
 THINNED: Final = (
-    "At least one trace is thinned: events are compared, but not the sensor readings between them."
+    "At least one trace is thinned: events are compared, but not the sensor readings between the events."
 )
 COURSE: Final = "Both runs took the same course: the same steps, stops, errors and answers."
 _UNITS: Final[Mapping[GuardKind, str]] = {

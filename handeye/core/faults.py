@@ -141,7 +141,7 @@ class FaultKind:
             )
         if fault.after is not None and not 0 < fault.after < float("inf"):
             raise BadArgument(
-                f"the fault {quoted(self.name)} begins after a time of more than 0 s, not {fault.after:g} s"
+                f"the fault {quoted(self.name)} must begin after a time of more than 0 s, not {fault.after:g} s"
             )
         if self.size is None and fault.value is not None:
             raise BadArgument(f"the fault {quoted(self.name)} takes no value")
@@ -175,7 +175,7 @@ class Catalogue:
             raise BadArgument(f"{quoted(name)} is a group of faults: {', '.join(map(quoted, inside))}")
         first = dict.fromkeys(known.split(".")[0] for known in self.kinds)
         near = suggestion(name, self.kinds) or (
-            f"choose from {', '.join(map(quoted, first))}" if first else "this task has none"
+            f"choose from {', '.join(map(quoted, first))}" if first else "this task has no faults"
         )
         raise NoSuchName(f"there is no fault {quoted(name)}; {near}")
 

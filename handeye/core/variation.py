@@ -94,7 +94,7 @@ class Overrides(Record, frozen=True, kw_only=True):
     set: dict[str, float] = msgspec.field(default_factory=dict)  # values, SI; take precedence over `without`
     scale: dict[str, float] = msgspec.field(default_factory=dict)
     """Factors on errors, in addition to the factor of the level, by name of a quantity or group, or `UNSOURCED`.
-    The most specific name applies.
+    If several names cover an error, the most specific name applies.
     """
 
 
@@ -280,6 +280,6 @@ def checked_seed(seed: object) -> int:
     """Check a seed and return it as a plain `int`. Raises BadArgument if the value is not a valid seed."""
     number = whole(seed)
     if number is None or not 0 <= number <= LARGEST_SEED:
-        told = repr(seed) if number is None or abs(number) < _LONG else "a longer one"
+        told = repr(seed) if number is None or abs(number) < _LONG else "a longer number"
         raise BadArgument(f"a seed must be a whole number from 0 to {LARGEST_SEED} (2^53 - 1), not {told}")
     return number

@@ -287,8 +287,8 @@ def error_text(number: int) -> str:
     """Return the explanation of an error number, without a final newline."""
     tested = (
         f"SKIPE {number} skips the next instruction if the error was raised; SKIPN {number} skips the next "
-        f"instruction if the error was not raised. If neither SKIPE {number} nor SKIPN {number} tests the error, "
-        "the error sets the brakes and calls the operator."
+        f"instruction if the error was not raised. If neither SKIPE {number} nor SKIPN {number} follows the "
+        "instruction that raised the error, the error sets the brakes and calls the operator."
     )
     example = indent(format_text(REMEDIES[number].example).rstrip("\n"), "    ")
     by = fill(f"raised by {', '.join(raised_by()[number])}", SENTENCE_WIDTH, subsequent_indent="    ")

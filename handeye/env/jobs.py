@@ -49,7 +49,7 @@ class Job(Record, frozen=True, kw_only=True):
     hold.
     """
     limits: Mapping[str, float] = msgspec.field(default_factory=dict)
-    """For some findings, limits that replace the referee's own because only a part of the work is done."""
+    """For some findings, limits that replace the limits of the referee, because only a part of the work is done."""
     plants: tuple[str, ...] = ()
     """Faults, one of which is planted at the start. The seed chooses the fault and its size."""
     sizes: tuple[float, float] = (0.0, 0.0)  # least and greatest size of a planted fault, in the fault's unit

@@ -70,7 +70,8 @@ class Servo:
     _chain: tuple[ArmModel, ArmArithmetic] | None = field(default=None, init=False)
     _unseen: Array | None = field(default=None, init=False)
     """Difference (rad, m) in the last servo period between the motion of each joint and the motion that its rates
-    show. None unless the closing gap shows that an object has shifted in the fingers; such a shift may throw the hand.
+    show. None unless the closing gap shows that an object has shifted in the fingers. Such a shift can move the hand
+    suddenly.
     """
 
     @property

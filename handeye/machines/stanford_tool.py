@@ -20,6 +20,6 @@ LIMITS: Final = HandlingLimits(
     carried=5.0,  # the arm feels up to 2.5 N in free air at .025 m/s
     resistance=14.0,  # the arm feels up to 7 N in free air at .2 m/s; twice as much is an obstacle
 )
-"""Limits of the arm, from the forces that it feels in free air (`handeye/execution/tool_axes.py`). They belong to the
-arm, and not to a program.
+"""Limits of the arm, from the forces that it feels in free air (`handeye/execution/tool_axes.py`). The limits belong
+to the arm, and not to a program.
 """

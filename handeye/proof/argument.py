@@ -125,13 +125,13 @@ def _avoided(
     text = (
         "the program can end here"
         if first.leaves is None
-        else "after this line, the path below no longer shows it"
+        else "after this line, the path below no longer shows the claim"
     )
     since = max((index for index in (first.leaves, first.undone) if index is not None), default=0)
     marks = []
     if first.undone is not None:
         marks.append(
-            Label(span=_span(source, steps[first.undone]), text="after this, it must be shown again")
+            Label(span=_span(source, steps[first.undone]), text="after this, the claim must be shown again")
         )
     nowhere = not all(first.phases)
     says = "no step of the program shows" if nowhere else "a path to the end does not show"

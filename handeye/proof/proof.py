@@ -33,14 +33,14 @@ class ClaimProof(Record, frozen=True, kw_only=True):
     verdict: Verdict
     phases: tuple[tuple[int, ...], ...] = ()  # for each phase, the steps that show it
     passed: tuple[int | None, ...] = ()
-    """For each phase, a step that shows the phase on every path to the end. If there are several, the last one before
-    the step of the next phase. None for a phase that different paths show at different steps. Empty unless the claim
-    is shown.
+    """For each phase, a step that shows the phase on every path to the end. If there are several such steps, the last
+    of them before the step of the next phase. None for a phase that different paths show at different steps. Empty
+    unless the claim is shown.
     """
     way: tuple[WayStep, ...] = ()  # a shortest path to the end that avoids the claim
     leaves: int | None = None
-    """Index, in the path, of the last step from which some other path leads to a step that shows the claim. None if
-    the path has no step with such another path.
+    """Index, in the path, of the last step from which some other path leads to a step that shows the claim. None if no
+    step of the path has another path of this kind.
     """
     undone: int | None = None
     """Index, in the path, of the last step after which the claim must be shown again; None if there is none."""

@@ -188,7 +188,7 @@ def _places(happening: Iterable[_RunPosition]) -> tuple[Column, ...]:
             about="required file that contains the step; empty if the step is in the script itself",
             values=files,
         ),
-        Column(name="line", about=f"line of the step in that file; {NO_STEP} if there is none", values=lines),
+        Column(name="line", about=f"line of the step in its file; {NO_STEP} if there is none", values=lines),
     )
 
 

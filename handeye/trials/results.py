@@ -128,7 +128,7 @@ def assemble_each(
         trial = partial(run_plan, record, camera=camera, limits=limits, parts=parts, own_referee=own_referee)
         return Results(Several(trial(world=spec).result for spec in specs))
     if search is not None or own_referee is not None:
-        raise BadArgument("code that replaces a part needs one process: leave out `jobs=...`")
+        raise BadArgument("code that replaces a part of the run needs one process: leave out `jobs=...`")
     found = list(in_processes(partial(_result, record, camera, limits), specs, jobs))
     return Results(Several(sorted(found, key=lambda result: specs.index(result.world))))
 

@@ -44,7 +44,8 @@ class SoundRun:
         found = self.store.at_or_before(position)
         if found is None or found.snapshot is None:
             raise Refused(
-                f"a schedule cannot begin after {counted(position, 'step')}: the run has no such state"
+                f"a schedule cannot begin after {counted(position, 'step')}: the run stored no state at or before "
+                "this step"
             )
         return found
 

@@ -198,7 +198,8 @@ class Sweep(Generic[R]):
     """Further entries for the JSON."""
     details: Callable[[Sequence[R]], Sequence[Details]] = field(default=lambda _: ())
     work: "Callable[[Case], Sequence[R]] | None" = None
-    """Executes the trials of a case, if this kind has no options. Such a kind needs no command of its own."""
+    """Executes the trials of a case, if this kind has no options. A kind without options needs no command of its own.
+    """
     shared_worlds: bool = False
     """True if several trials share a world, so that the seed of a trial does not follow from its number."""
 

@@ -22,7 +22,9 @@ from handeye.view.moment import FIGURES, Newest
 
 _MARK: Final = "<!DOCTYPE html>\n"
 _POLICY: Final = ("connect-src 'self'", "base-uri 'none'", "form-action 'none'")
-"""Permissions in addition to the report's: the page may communicate with its own server, but with no other."""
+"""Permissions that the page has in addition to those of the report: the page may communicate with its own server, but
+with no other server.
+"""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -39,8 +39,8 @@ PLACE_PRIOR: Final = 0.5 * INCH  # sigma, of the mount and of the lens offsets
 TURN_PRIOR: Final = 2 * DEGREE  # sigma, of pan, tilt and roll
 SCALE_PRIOR: Final = 0.01  # sigma, of the focal lengths
 SIGHT_ERROR: Final = 0.13 * INCH  # .1 in of the arm, and .07 deg of the potentiometers at 65 in
-"""Standard deviation (m) of a sighting. The three constants PLACE_PRIOR, TURN_PRIOR and SCALE_PRIOR are weak priors
-(vision study, section 3).
+"""Standard deviation (m) of a sighting. PLACE_PRIOR, TURN_PRIOR and SCALE_PRIOR are weak priors (vision study, section
+3).
 """
 MIN_SIGHTINGS: Final = 6
 """Least number of sightings for each lens. With fewer, the priors dominate; 12 to 20 are good."""

@@ -38,8 +38,8 @@ class LensModel:
     forward: float  # along the line of sight
     up: float  # in the picture
     side: float = 0.0
-    """Offset to the right in the picture. Calibration keeps the design value of this offset, because it has the
-    same effect as an error of pan.
+    """Offset to the right in the picture. Calibration keeps the design value of this offset, because the offset has
+    the same effect as an error of pan.
     """
 
     def __post_init__(self) -> None:

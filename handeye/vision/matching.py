@@ -44,8 +44,8 @@ FAINT: Final = 3.3
 of the picture's levels.
 
 Limits in levels mean something only in pictures of about the usual contrast, which is 6.6 to 7.4 levels on a pump
-(five worlds). There, a missing head gives at least 3.7 levels, so at a contrast of 2.9 levels it would give 1.6
-levels, which is the limit `DIFFERENT`. The rest, from 2.9 to 3.3, is a margin for the noise.
+(five worlds). In such pictures, a missing head gives at least 3.7 levels, so at a contrast of 2.9 levels it would give
+1.6 levels, which is the limit `DIFFERENT`. The rest, from 2.9 to 3.3, is a margin for the noise.
 """
 BESIDE: Final = 12
 """Width (points) of a strip around the part that counts neither as part nor as surroundings.

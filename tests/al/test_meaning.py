@@ -162,7 +162,7 @@ def test_two_pictures_in_the_wrong_order_are_told_so() -> None:
     (told,) = diagnose("LOOK A\nLOOK B HOLD\nINSPECT BASE B A")
     assert (told.code, told.message) == (
         "compared-without-hold",
-        "picture `B` is named as the earlier one, but is taken with `HOLD`, after picture `A`",
+        "picture `B` is named as the earlier picture, but is taken with `HOLD`, after picture `A`",
     )
 
 

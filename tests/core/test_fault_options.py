@@ -74,7 +74,7 @@ def test_a_stage_may_have_any_name() -> None:
             ["wand.open@2"],
             "the fault `wand.open` begins after a time, not at a stage; write for example `@30s`, not `@2`",
         ),
-        (["wand.open@0s"], "the fault `wand.open` begins after a time of more than 0 s, not 0 s"),
+        (["wand.open@0s"], "the fault `wand.open` must begin after a time of more than 0 s, not 0 s"),
     ],
 )
 def test_what_names_no_fault_is_refused(texts: list[str], sentence: str) -> None:

@@ -48,7 +48,7 @@ def test_do_tells_a_modifier_alone_how_it_goes_with_its_motion(command: Command)
             (),
             "with --keep FILE, `handeye do` saves the cell at the end, and --from FILE continues from the saved cell",
         ),
-        (("--keep", "a.checkpoint"), "`handeye do --from a.checkpoint` continues from there"),
+        (("--keep", "a.checkpoint"), "`handeye do --from a.checkpoint` continues from the saved cell"),
     ],
 )
 def test_do_says_how_to_go_on_when_the_operator_is_called(

@@ -161,7 +161,7 @@ def test_the_matrix_that_is_interrupted_tells_what_has_ended_and_goes_on_there(
     words = ("faults", "--jobs", "1", "--only", "picture", "--only", "panic", "--out", "kept")
     code, out, err = command(*words)
     assert (code, "2 faults: 2 unnoticed; 2 undetected" in out) == (130, True)
-    assert "2 trials saved in kept; the same command continues from there" in err
+    assert "2 trials saved in kept; the same command continues the batch" in err
     first = unnoticed.copy()
     unnoticed.clear()
     assert command(*words)[0] in (3, 130)

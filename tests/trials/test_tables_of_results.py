@@ -52,7 +52,7 @@ def test_trials_have_what_is_taught_and_a_search_and_a_referee_of_their_own() ->
         ({"worlds": 3}, r"^worlds must be a sequence of seeds or worlds, not 3$"),
         (
             {"worlds": [1], "jobs": 2, "search": spiral},
-            r"^code that replaces a part needs one process: leave ",
+            r"^code that replaces a part of the run needs one process: leave ",
         ),
         ({"worlds": [1], "referee": {"pump": 1}}, r"^the referee has no finding `pump`; "),
         ({"worlds": [1], "jobs": 0}, r"^jobs must be a whole number of 1 or more, not 0$"),

@@ -225,8 +225,8 @@ def _not_comparable(words: ByWord) -> Iterator[Diagnostic]:
             continue
         if any(held for _, held in looks.get(before.text, [])):
             message = (
-                f"picture {quoted(before.text)} is named as the earlier one, but is taken with `HOLD`, after picture "
-                f"{quoted(after.text)}"
+                f"picture {quoted(before.text)} is named as the earlier picture, but is taken with `HOLD`, after "
+                f"picture {quoted(after.text)}"
             )
             help = "name the earlier picture first"
             yield problem("compared-without-hold", message, across(before, after), help=help)

@@ -31,8 +31,8 @@ class GuardedMotion:
     guard: GuardKind
     times: Array  # Ends of the periods, shape (n,), s since the run began
     values: Array
-    """What the guard measures, shape (n,). It depends on `guard`: force along the guard's axis (N), moment about this
-    axis (N m), torque of the screwdriver (N m), or finger switches.
+    """The quantity that the guard measures, shape (n,). The kind of guard, `guard`, determines the quantity: force
+    along the guard's axis (N), moment about this axis (N m), torque of the screwdriver (N m), or finger switches.
     """
     limit: float  # N, N m, or switches
     trip: MetGuard | None

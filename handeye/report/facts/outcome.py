@@ -15,9 +15,10 @@ from handeye.report.recorded import RecordedRun
 from handeye.results.result import Check
 
 Kind = Literal["right", "wrong", "ended", "stopped", "panic", "paused", "broken off"]
-"""The outcome of a run. If the program ended: `right` if the referee accepts the work, `wrong` if it does not,
-and `ended` if it has not judged the work. If the program did not end: `stopped` if the program called the operator,
-`panic` if the panic button was pressed, `paused` if the run can go on, and `broken off` if the trace is incomplete.
+"""The outcome of a run. If the program ended: `right` if the referee accepts the work, `wrong` if the referee rejects
+the work, and `ended` if the referee has not judged the work. If the program did not end: `stopped` if the program
+called the operator, `panic` if the panic button was pressed, `paused` if the run can go on, and `broken off` if the
+trace is incomplete.
 """
 
 

@@ -19,7 +19,9 @@ from handeye.trace.forces import Forces
 from handeye.trace.stages import done_steps
 
 FORCE: Final = 0.2
-"""Greatest error (N), in each direction, of the force that the report draws: a tenth of the smallest limit in use."""
+"""Greatest error (N), in each direction, of the force that the report draws. The error is a tenth of the smallest
+force limit of a guard in use.
+"""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

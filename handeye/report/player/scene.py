@@ -233,8 +233,8 @@ _BESIDE: Final = np.array([0.30, 0.38, 0.36])  # From the hand to the viewer, m
 _FINGERS: Final = 0.8  # Where the fingers are: fraction of the way from wrist to tool centre point
 _LENS: Final = 37.0  # Angle of view if no camera defines it, degrees
 _LAMP: Final = np.array([1.05, -0.65, 1.3])
-"""Position of the lamp relative to the centre of the scene, divided by the scene's size: high, in front, on the
-left of the viewer.
+"""Position of the lamp relative to the centre of the scene, divided by the scene's size. The lamp is high, in front of
+the scene, and to the left of the viewer.
 """
 
 

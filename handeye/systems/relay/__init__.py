@@ -10,7 +10,7 @@ ENTRY = Entry(
     can=("undo", "faults", "levels", "video"),
     reasons={
         "plans": "`handeye relay run FILE.relay` runs its programs",
-        "leg": "its own legs are programs of other systems",
+        "leg": "the legs of a relay must be programs of other systems",
     },
     commands="""
 relay = handeye.systems.relay.cli.commands:relay: Assemble one pump with programs of several systems, which take turns on the same arm.

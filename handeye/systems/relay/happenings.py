@@ -44,7 +44,7 @@ OF_LEGS: Final[Mapping[type, type[SystemEvent]]] = {
     if "leg" in entry.can and entry.events
     for kind in loaded(entry.events)
 }
-"""Kinds of events in a relay. The key is the kind of event of the system that does the leg."""
+"""Kinds of events in a relay. The key is the kind of event that the system of the leg reports."""
 EVENTS: Final[tuple[Any, ...]] = (LegStarted, *OF_LEGS.values())
 
 

@@ -31,8 +31,8 @@ HOLE_PLACE: Final = 2.5
 table beside the plate is lower than a seated one, but not in the hole.
 """
 ON_FACE: Final = 0.1
-"""Greatest distance (mm) between the face and the end of a pin that stands on it. A pin that stands there presses
-itself .01 to .06 mm into the contact.
+"""Greatest distance (mm) between the face and the end of a pin that stands on the face. Contacts are soft: a standing
+pin sinks in by .01 to .06 mm.
 """
 STANDING: Final = 1.0  # N; a pin that presses less on the plate may only hover close to it. Our choice
 HOLDER_LEAN: Final = 10.0  # deg; a pin tilted by more leans out of the holder

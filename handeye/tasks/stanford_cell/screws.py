@@ -36,7 +36,9 @@ LAND: Final = 9.5  # radius of the metal around a hole that fasteners can touch
 RING: Final = 1.5  # depth of the bit's ring below the bit's face
 TORQUE: Final = 0.32  # N m at which the clutch slips, as in the pump's screwdriver
 SPIN: Final = 0.01
-"""Torque on a loose screw (N m). It is less than the friction between bit and head, because no slot holds the bit."""
+"""Torque on a loose screw (N m). It must be less than the friction between bit and head, because no slot keeps the bit
+from slipping.
+"""
 LOOSENING: Final = 0.8  # N m, greatest torque to loosen a screw
 MAGNET: Final = 2.0  # N
 _REACH: Final = 0.001  # m from the face at which the magnet still draws a head

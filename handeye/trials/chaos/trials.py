@@ -42,7 +42,7 @@ def on_disk(carried: ScheduleRun) -> Iterator[str]:
     yield from CheckpointStore(carried.folder / CHECKPOINTS).damaged()
     try:
         if list(effective(read_events(carried.folder / EVENTS))) != carried.runner.events:
-            yield "the event list differs from what happened"
+            yield "the event list differs from the events of the run"
         msgspec.json.decode((carried.folder / RESULT).read_bytes(), type=Result)
     except (InvalidInput, OSError, msgspec.DecodeError) as fault:
         yield str(fault)
@@ -56,7 +56,7 @@ def in_trace(carried: ScheduleRun) -> Iterator[str]:
         yield str(fault)
         return
     if list(trace.events) != carried.runner.events:
-        yield "the trace differs from what happened"
+        yield "the trace differs from the events of the run"
     if trace.head.world != carried.runner.setup.world:
         yield "the trace belongs to another world"
 
@@ -125,8 +125,8 @@ class ScheduleResult(Record, frozen=True, kw_only=True):
     ended: str  # The kind of its last pause; `error`: an exception that should never occur
     broken: tuple[Violation, ...]
     unseen: tuple[Violation, ...] = ()
-    """Failed findings on a pump that the program reported as right, if the schedule's faults spoiled the pump only
-    after the program's last look.
+    """Failed findings on a pump that the program reported as right. Empty unless the schedule's faults spoiled the
+    pump after the program's last look at the pump.
     """
 
     @property

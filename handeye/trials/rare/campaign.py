@@ -46,7 +46,7 @@ class Estimated(Record, frozen=True, kw_only=True):
 
     failure: FailureKind
     reached: bool
-    """True if worlds were found in which the program fails in this way. If False, the estimate is the probability of a
+    """True if worlds with this kind of failure were found. If False, the estimate is the probability of a
     margin that is at most the threshold of the last level.
     """
     threshold: float

@@ -50,11 +50,12 @@ class RareRow(Row, frozen=True, kw_only=True):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Margin:
-    """The margin of a run before one kind of failure (a stop or a silent end), and the part that determines it."""
+    """The margin of a run, and the part that determines the margin."""
 
     value: float
     """A value of 1 means that the run had the reserve that runs usually have. A value of 0 or less means that the run
-    failed in that way. An infinite value means that the run gives no information about this kind of failure.
+    had the kind of failure for which the margin was computed. An infinite value means that the run gives no
+    information about this kind of failure.
     """
     part: str
 

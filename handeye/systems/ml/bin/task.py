@@ -59,14 +59,21 @@ PARTS: Final = (
         "Probability that a part is bad: 1 mm too narrow, or half as heavy as a good one. No source: our choice.",
     ),
     quantity(_SIZE, "mm", Noise(0.05), 0.2, "Standard deviation of a part's width. No source: our choice."),
-    quantity(_FRICTION, "", Range(0.3, 0.4), 2.0, "Friction between parts. No source: our choice.", 0.35),
+    quantity(
+        _FRICTION,
+        "",
+        Range(0.3, 0.4),
+        2.0,
+        "Coefficient of friction between parts. No source: our choice.",
+        0.35,
+    ),
     quantity(
         SMOOTH,
         "",
         Range(0.10, 0.18),
         2.0,
-        "Friction between parts and hopper. No source: our choice, for a polished lining; with .22 or more, parts "
-        "would stay on the slopes.",
+        "Coefficient of friction between parts and hopper. No source: our choice, for a polished lining. If the "
+        "coefficient were .22 or more, parts would stay on the slopes of the hopper.",
         0.14,
     ),
 )
@@ -164,7 +171,7 @@ class Bin(ArmTask):
             "lost": at_most(int(out.sum()), 0, "parts", "parts that lie elsewhere"),
             "told": at_most(
                 max(abs(one - other) for one, other in zip(counted, here, strict=True)), 0, "parts",
-                "greatest difference, in either box, between the printed and the true number of parts",
+                "greatest difference between the printed and the true number of parts in a box",
             ),
         }  # fmt: skip
 

@@ -34,7 +34,7 @@ FAULTS: Final = Catalogue(
     arm_fault("potentiometer.z.stuck"),
     planted(MISSING, "There is no first block.", _NONE),
     planted(
-        MOVED, "The second block lies this far from its place, along x.", _MET, _NONE,
+        MOVED, "The second block lies off its place along x; the value is the distance.", _MET, _NONE,
         size=Size(unit="mm", usual=30.0, limits=(15.0, 60.0)),
     ),
     planted(SMALL, "The side of the first block is 8 mm too short.", _NONE),

@@ -55,7 +55,12 @@ VARIATION: Final = Variation(
     ),
     quantity(_SIZE, "mm", Noise(0.1), 1.0, "Standard deviation of a block's side. No source: our choice."),
     quantity(
-        _FRICTION, "", Range(0.3, 0.5), 2.0, "Friction of blocks and table. No source: our choice.", 0.4
+        _FRICTION,
+        "",
+        Range(0.3, 0.5),
+        2.0,
+        "Coefficient of friction of a block on the table and on another block. No source: our choice.",
+        0.4,
     ),
 )
 

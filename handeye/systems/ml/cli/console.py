@@ -23,8 +23,8 @@ from handeye.systems.ml.realtime.happenings import EmergencyStopped, GoalRounded
 ENDING: Final = ".ml"
 _KEYS: Final = "type N to execute the statement, R to run on without asking, or A to abandon the program"
 _JOYSTICK: Final = (
-    "to move a motor, type its number and a distance; RECORD stores the positions; "
-    "CANCEL leaves the point as it is"
+    "to move a motor, type its number and a distance; RECORD stores the positions; CANCEL keeps the earlier "
+    "positions of the POINT"
 )
 
 

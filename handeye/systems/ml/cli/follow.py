@@ -52,8 +52,8 @@ def follow_trials(
     """Follow an outline in many worlds. Shows the errors of the touches, and how often the outline is followed
     correctly.
 
-    Each trial does what `handeye ml follow` does. Ctrl-C ends the batch and prints the trials that have finished; with
-    --out, the same command continues the batch.
+    Each trial does what `handeye ml follow` does. Ctrl-C ends the batch and prints the trials that have finished. If
+    you gave --out, repeat the command to continue the batch.
 
     Exit code 0: no silent failure; 1: no trial finished; 3: a silent failure: in some trial, the circuit is closed but
     the referee disagrees.

@@ -21,7 +21,7 @@ JobSeed = Annotated[
     Parameter(help="Seed of the world. It determines the errors of the arm and where the parts lie."),
 ]
 NumberOfWorlds = Annotated[
-    WholeNumber, Parameter(name="--n", help="Number of worlds; world K has the seed --seed plus K.")
+    WholeNumber, Parameter(name="--n", help="Number of worlds. The seed of world K is --seed plus K.")
 ]
 
 

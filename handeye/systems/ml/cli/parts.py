@@ -48,8 +48,8 @@ def orient_trials(
 ) -> int:
     """Orient a bar in many worlds. Shows the errors of the bar's attitude and place, and how often both are right.
 
-    Each trial does what `handeye ml orient` does. Ctrl-C ends the batch and prints the trials that have finished; with
-    --out, the same command continues the batch.
+    Each trial does what `handeye ml orient` does. Ctrl-C ends the batch and prints the trials that have finished. If
+    you gave --out, repeat the command to continue the batch.
 
     Exit code 0: no silent failure; 1: no trial finished; 3: a silent failure: in some trial, the program ended but
     the referee disagrees.
@@ -94,8 +94,8 @@ def bin_trials(
     """Take parts out of a bin in many worlds. Shows how often all parts are taken out and judged correctly, and why
     the other trials fail.
 
-    Each trial does what `handeye ml bin` does. Ctrl-C ends the batch and prints the trials that have finished; with
-    --out, the same command continues the batch.
+    Each trial does what `handeye ml bin` does. Ctrl-C ends the batch and prints the trials that have finished. If you
+    gave --out, repeat the command to continue the batch.
 
     Exit code 0: no silent failure; 1: no trial finished; 3: a silent failure: in some trial, the program ended but
     the referee disagrees.

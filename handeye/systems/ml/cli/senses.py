@@ -1,4 +1,4 @@
-"""Reads from the command line which values the sensors and interlocks have in a run with perfect motors."""
+"""Reads the values of sensors and interlocks, for a run with perfect motors, from the command line."""
 
 import re
 from typing import Final
@@ -15,8 +15,8 @@ FORM: Final = "SENSOR=READING, SENSOR=READING@MOTOR:POSITION or SENSOR=READING@S
 
 
 def sensed(text: str) -> Stimulus:
-    """Parse what a sensor or an interlock reads. The value holds always, or from a given time on, or while a motor is
-    at least as far from 0 as a given position. Raises BadArgument.
+    """Parse a value of --sense, which says what a sensor or an interlock reads. The reading holds always, or from a
+    given time on, or while a motor is at least as far from 0 as a given position. Raises BadArgument.
     """
     match = _FORM.fullmatch(text)
     if match is None or not all(fits(int(each or 0)) for each in (match[2], match[4])):

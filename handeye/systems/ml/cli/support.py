@@ -39,8 +39,8 @@ def support_trials(
 ) -> int:
     """Assemble the rail support in many worlds. Shows the errors of the 22 parts, and how often all parts are right.
 
-    Each trial does what `handeye ml support` does. Ctrl-C ends the batch and prints the trials that have finished; with
-    --out, the same command continues the batch.
+    Each trial does what `handeye ml support` does. Ctrl-C ends the batch and prints the trials that have finished. If
+    you gave --out, repeat the command to continue the batch.
 
     Exit code 0: no silent failure; 1: no trial finished; 3: a silent failure: in some trial, the program ended but
     the referee disagrees.
@@ -85,8 +85,8 @@ def typewriter_trials(
 ) -> int:
     """Take a bar out of a bin, orient it and assemble the rail support with it, in many worlds.
 
-    Each trial does what `handeye ml typewriter` does. Ctrl-C ends the batch and prints the trials that have finished;
-    with --out, the same command continues the batch.
+    Each trial does what `handeye ml typewriter` does. Ctrl-C ends the batch and prints the trials that have finished.
+    If you gave --out, repeat the command to continue the batch.
 
     Exit code 0: no silent failure; 1: no trial finished; 3: a silent failure: in some trial, the program ended but
     the referee disagrees.

@@ -55,8 +55,8 @@ def blocks_trials(
 ) -> int:
     """Stack three blocks in many worlds. Shows the errors of the stack, and how often the stack is right.
 
-    Each trial does what `handeye ml blocks` does. Ctrl-C ends the batch and prints the trials that have finished; with
-    --out, the same command continues the batch.
+    Each trial does what `handeye ml blocks` does. Ctrl-C ends the batch and prints the trials that have finished. If
+    you gave --out, repeat the command to continue the batch.
 
     Exit code 0: no silent failure; 1: no trial finished; 3: a silent failure: in some trial, the program ended but
     the referee disagrees.
@@ -76,8 +76,8 @@ def train_trials(
 ) -> int:
     """Couple a train in many worlds. Shows the errors of the train, and how often both wagons follow the engine.
 
-    Each trial does what `handeye ml train` does. Ctrl-C ends the batch and prints the trials that have finished; with
-    --out, the same command continues the batch.
+    Each trial does what `handeye ml train` does. Ctrl-C ends the batch and prints the trials that have finished. If
+    you gave --out, repeat the command to continue the batch.
 
     Exit code 0: no silent failure; 1: no trial finished; 3: a silent failure: in some trial, the program ended but
     the referee disagrees.

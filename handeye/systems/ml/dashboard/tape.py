@@ -39,8 +39,8 @@ _SHARED: Final = ("TM",)
 _EVENTS: Final = ("FE", "GO", "EM", "SF")  # tables that change in some cycles
 
 Changes = NDArray[np.int32]
-"""Changed words, shape (n, 3): each row has the cycle, the number of the word and its value. Changes of the same word
-are in the order in which they happened. Cycles count from 0. A change that a statement makes belongs to the cycle
+"""Changed words, shape (n, 3): each row has the cycle, the number of the word and its value. Several changes of one
+word are in the order in which they happened. Cycles count from 0. A change that a statement makes belongs to the cycle
 after the statement.
 """
 

@@ -18,7 +18,7 @@ FAULTS: Final = Catalogue(
     arm_fault("potentiometer.y.stuck"),
     planted(MISSING, "No plate lies on the table.", _NOTHING),
     planted(
-        MOVED, "The plate lies this far from its place, along x.", _NOTHING,
+        MOVED, "The plate lies off its place along x; the value is the distance.", _NOTHING,
         harmless="The follower finds the plate if the plate lies ahead of it.",
         size=Size(unit="mm", usual=30.0, limits=(-60.0, 60.0)),
     ),

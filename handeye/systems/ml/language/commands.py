@@ -74,7 +74,7 @@ _ROWS: Final[dict[Category, tuple[tuple[str, str, str, str], ...]]] = {
         ("RIGHT", "", "All commands that follow are for the right arm. At the start, commands are for the right arm.",
          "RIGHT"),
         ("PRINT", "[x ...]", "Print up to 15 values on a line.", "90 PRINT &1 &2"),
-        ("RUN", "[n]", "Run the stored program from statement n, or from its first statement.", "RUN 100"),
+        ("RUN", "[n]", "Run the stored program from statement n; without n, from its first statement.", "RUN 100"),
         ("TRY", "[n]", "Run the stored program one statement at a time: each statement waits for a key.", "TRY"),
         ("TRACE", "[x]", (
             "Before each statement runs, print the statement with its values; `TRACE 0` ends the printing."
@@ -84,8 +84,9 @@ _ROWS: Final[dict[Category, tuple[tuple[str, str, str, str], ...]]] = {
         ("BAL", "v n", "Put the number of the next statement into variable v and go to statement n; "
                        "`BRANCH &v` returns.", "100 BAL 9 400"),
         ("BRANCH", "n1 [n2 [s ...]]", (
-            "Without n2, go to n1. With n2, go to n1 if at least one listed sensor has its flag on (or, for a "
-            "sensor listed as -s, off); if not, go to n2. If no sensors are listed, the flags of all sensors count."
+            "Without n2, go to n1. With n2, go to n1 if at least one listed sensor fulfils its condition, and to "
+            "n2 if none does. The condition of s is that its flag is on, and the condition of -s is that its flag "
+            "is off. If no sensors are listed, the flags of all sensors count."
         ),
          "400 BRANCH 500 410 5 14"),
         ("BRCOMP", "n1 [n2]", (
@@ -127,8 +128,10 @@ _ROWS: Final[dict[Category, tuple[tuple[str, str, str, str], ...]]] = {
          "285 MOVE 0 0 2000 0 0 0 0 0 4000 -9000 650 1900"),
     ),
     "sense": (
-        ("CALIB", "[s ...]", "Take the mean of the last eight readings as the new zero of these sensors, or of all "
-                             "analog sensors.", "20 CALIB 5 6 7"),
+        ("CALIB", "[s ...]", (
+            "For each listed sensor, take the mean of its last eight readings as its new zero. If no sensors are "
+            "listed, do so for all analog sensors."
+        ), "20 CALIB 5 6 7"),
         ("SENSOR", "[s [lo hi]]", (
             "Clear the flag of a sensor, and guard the sensor: when its reading leaves the range between lo and "
             "hi, the flag comes on and all motors freeze. If the limits are left out, every reading of the sensor "
@@ -177,9 +180,11 @@ _ROWS: Final[dict[Category, tuple[tuple[str, str, str, str], ...]]] = {
          "50 PUT MT 2 8 10"),
     ),
     "edit": (
-        ("ERASE", "n1 [n2]", "Erase statement n1, or all statements from n1 to n2.", "ERASE 500 550"),
+        ("ERASE", "n1 [n2]", "Erase statement n1; with n2, erase all statements from n1 to n2.", "ERASE 500 550"),
         ("FILE", "t line word x ...", "Write consecutive words of a table.", "FILE MT 2 8 10"),
-        ("LIST", "[n1 [n2]]", "List the stored program, a statement, or all statements from n1 to n2.", "LIST 100 200"),
+        ("LIST", "[n1 [n2]]", (
+            "List the stored program; with n1, only this statement; with n1 and n2, all statements from n1 to n2."
+        ), "LIST 100 200"),
         ("QPOINT", "", "Show the last eight POINTs that DEFPOINT and GOPOINT used, the latest first.", "QPOINT"),
         ("QUERY", "t [line [word]]", "Show a table, a line of the table, or a word of the line.", "QUERY ST 5"),
     ),

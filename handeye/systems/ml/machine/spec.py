@@ -16,8 +16,8 @@ TORQUE_COUNT: Final = 0.001  # N m: one count of the torque of a power tool
 CYCLE: Final = 0.01  # s
 CYCLES_PER_SECOND: Final = 100
 HUNDREDTHS: Final = 100
-"""Set-points are counted in hundredths of the unit of goals, because the number of units a cycle need not be whole: a
-speed of 20 cm/s is 78.74 units a cycle.
+"""Set-points are counted in hundredths of the unit of goals, because the number of units per cycle need not be whole:
+a speed of 20 cm/s is 78.74 units per cycle.
 """
 
 

@@ -75,7 +75,12 @@ VARIATION: Final = Variation(
     ),
     STOP_PLACE,
     quantity(
-        _FRICTION, "", Range(0.3, 0.5), 2.0, "Friction of bar, table and cradle. No source: our choice.", 0.4
+        _FRICTION,
+        "",
+        Range(0.3, 0.5),
+        2.0,
+        "Coefficient of friction of the bar on the table and on the cradle. No source: our choice.",
+        0.4,
     ),
 )
 

@@ -109,7 +109,8 @@ PARTS_VARY: Final = (
         "",
         Range(0.87, 1.13),
         2.0,
-        "Friction of the threads, as a multiple of its nominal value. No source: our choice, as for the pump's plate.",
+        "Friction of the threads, as a multiple of its nominal value. No source: our choice, the same range as for "
+        "the screws of the pump's plate.",
         1.0,
     ),
     quantity(

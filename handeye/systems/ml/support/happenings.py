@@ -16,7 +16,7 @@ FOUND: Final[dict[int, Found]] = {
     75: "beside",
     76: "tightened",
 }
-"""For each number that the program prints before the number of a screw: what the program has found."""
+"""What the program has found about a screw, by the code that it prints before the number of the screw."""
 _ENDS: Final[dict[Found, str]] = {
     "seated": "is seated",
     "crossed": "is crossed or jammed: it stopped the screwdriver too early, so the program turns it out",
@@ -34,8 +34,8 @@ class ScrewReported(SystemEvent, frozen=True, kw_only=True):
     screw: int
     found: Found
     deeper: float
-    """How much deeper (m) the bit is than it would be over a seated screw or, if the screw was not turned, over a screw
-    in the mouth of its thread.
+    """How much deeper (m) the bit is than it would be over a seated screw. If the screw was not turned, the comparison
+    is with a screw in the mouth of its thread.
     """
     torque: float  # N m; 0 if the clutch has not slipped
 

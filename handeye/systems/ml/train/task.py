@@ -46,7 +46,12 @@ VARIATION: Final = Variation(
         _TURNED, "deg", Noise(2.0), 8.0, "Standard deviation of a vehicle's rotation. No source: our choice."
     ),
     quantity(
-        _FRICTION, "", Range(0.3, 0.5), 2.0, "Friction of vehicles and table. No source: our choice.", 0.4
+        _FRICTION,
+        "",
+        Range(0.3, 0.5),
+        2.0,
+        "Coefficient of friction between a vehicle and the table. No source: our choice.",
+        0.4,
     ),
     quantity(
         _CLEARANCE,

@@ -54,7 +54,7 @@ def check(
     json: Annotated[bool, Parameter(help="Print the findings as JSON.")] = False,
 ) -> int:
     """Check a relay and its programs, without moving anything: do the legs fit together? Then list, for each leg, the
-    lines of the pump's own program for which the language of the leg has no words.
+    lines of `plans/water_pump.al` for which the language of the leg has no words.
 
     Exit code 0: no errors; 2: bad input, or a relay with errors.
     """
@@ -95,7 +95,7 @@ def relay_trials(
     and how often the leg ended well.
 
     Each trial does what `handeye relay run` does, and takes one to two CPU minutes. Ctrl-C ends the batch and prints
-    the trials that have finished; with --out, the same command continues the batch.
+    the trials that have finished. If you gave --out, repeat the command to continue the batch.
 
     Exit code 0: no silent failure; 1: no trial finished; 3: a silent failure: in some trial, the programs ended but
     the referee disagrees.

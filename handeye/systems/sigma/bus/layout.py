@@ -30,8 +30,8 @@ class Layout(Record, frozen=True, kw_only=True):
 
     places: tuple[Place, ...]
     behind: tuple[int, ...] = (-1,)
-    """For each segment, the next segment on the way to the central computer; the first segment is connected to the
-    computer itself.
+    """For each segment, the next segment on the way to the central computer; -1 for the first segment, which is
+    connected to the computer itself.
     """
     more_pages: bool = False  # two more output bits, for 256 microcomputers
 
@@ -120,6 +120,6 @@ LINE: Final = Layout(
     ),
     behind=(-1, 0, 1),
 )
-"""An assembly line: two SUPERSIGMAs, and a segment for the devices that bring and remove pieces; 26 microcomputers.
+"""An assembly line with 26 microcomputers: two SUPERSIGMAs, and a segment for the devices that bring and remove pieces.
 
 """

@@ -22,8 +22,8 @@ BusFaults = Annotated[
     Parameter(
         name="--fault",
         negative=(),
-        help="A fault of the bus, as KIND, KIND:WHERE or KIND:WHERE:VALUE; `handeye sigma bus faults` lists them. "
-        "This option may be repeated.",
+        help="A fault of the bus, as KIND, KIND:WHERE or KIND:WHERE:VALUE; `handeye sigma bus faults` lists the "
+        "kinds. This option may be repeated.",
     ),
 ]
 AllLines = Annotated[

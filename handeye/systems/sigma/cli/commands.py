@@ -124,7 +124,7 @@ def check(
     ] = None,
     json: Annotated[bool, Parameter(help="Print the findings as JSON.")] = False,
 ) -> int:
-    """Check a program as `handeye check` does, and try the orders of its tasks.
+    """Check a program as `handeye check` does, and try the orders in which its tasks may run.
 
     Statements are executed one at a time; motions and delays may take any time. Sensors answer 0, INPUT reads 0, and no
     motor is aborted.

@@ -31,8 +31,8 @@ def diagnose(
     seed: Annotated[
         WholeNumber | None,
         Parameter(
-            help="Seed of the world. In a game, it determines the fault (default: 0). With --fault or --all, it "
-            "determines the place of each fault; without it, each fault is at its usual place."
+            help="Seed of the world. In a game, the seed determines the fault (default: 0). With --fault or --all, "
+            "the seed determines the place of each fault; without --seed, each fault is at its usual place."
         ),
     ] = None,
     json: Json = False,

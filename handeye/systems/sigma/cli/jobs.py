@@ -30,7 +30,7 @@ JobSeed = Annotated[
     WholeNumber, Parameter(help="Seed of the world: it determines the pieces and the errors of the machine.")
 ]
 NumberOfBoards = Annotated[
-    WholeNumber, Parameter(name="--n", help="Number of boards; board K has the seed --seed plus K.")
+    WholeNumber, Parameter(name="--n", help="Number of boards. The seed of board K is --seed plus K.")
 ]
 Pieces = Annotated[WholeNumber, Parameter(help=f"Number of pieces on the board, 1 to {MOST_PIECES}.")]
 Pegs = Annotated[
@@ -159,8 +159,8 @@ def chess_trials(
     """Sort the pieces of many boards. Shows the bus load, the errors of the heights and positions of the pieces, and
     how often all pieces are right.
 
-    Each trial does what `handeye sigma chess` does. Ctrl-C ends the batch and prints the trials that have finished;
-    with --out, the same command continues the batch.
+    Each trial does what `handeye sigma chess` does. Ctrl-C ends the batch and prints the trials that have finished. If
+    you gave --out, repeat the command to continue the batch.
 
     Exit code 0: no silent failure; 1: no trial finished; 3: a silent failure: in some trial, the program ended but
         the referee disagrees.
@@ -181,8 +181,8 @@ def handover_trials(
     """Hand four pieces from arm to arm on many boards. Shows the bus load, the position errors of the pieces, and
     how often all pieces are right.
 
-    Each trial does what `handeye sigma handover` does. Ctrl-C ends the batch and prints the trials that have
-    finished; with --out, the same command continues the batch.
+    Each trial does what `handeye sigma handover` does. Ctrl-C ends the batch and prints the trials that have finished.
+    If you gave --out, repeat the command to continue the batch.
 
     Exit code 0: no silent failure; 1: no trial finished; 3: a silent failure: in some trial, the program ended but
         the referee disagrees.
@@ -200,8 +200,8 @@ def insert_trials(
 ) -> int:
     """Insert the pegs of many boards. Shows the bus load, the forces, and how often all pegs are right.
 
-    Each trial does what `handeye sigma insert` does. Ctrl-C ends the batch and prints the trials that have
-    finished; with --out, the same command continues the batch.
+    Each trial does what `handeye sigma insert` does. Ctrl-C ends the batch and prints the trials that have finished.
+    If you gave --out, repeat the command to continue the batch.
 
     Exit code 0: no silent failure; 1: no trial finished; 3: a silent failure: in some trial, the program ended but
         the referee disagrees.
@@ -223,8 +223,8 @@ def line_trials(
     """Run the assembly line in many worlds. Shows the bus load, the position errors of the pieces, and how often all
     pieces are right.
 
-    Each trial does what `handeye sigma line` does. Ctrl-C ends the batch and prints the trials that have finished;
-    with --out, the same command continues the batch.
+    Each trial does what `handeye sigma line` does. Ctrl-C ends the batch and prints the trials that have finished. If
+    you gave --out, repeat the command to continue the batch.
 
     Exit code 0: no silent failure; 1: no trial finished; 3: a silent failure: in some trial, the program ended but
         the referee disagrees.
@@ -244,8 +244,8 @@ def prco_trials(
     """Assemble the plate of the pump in many worlds. Shows the bus load, the depth and the clamping force of the
     screws, and how often all parts are right.
 
-    Each trial does what `handeye sigma prco` does. Ctrl-C ends the batch and prints the trials that have finished;
-    with --out, the same command continues the batch.
+    Each trial does what `handeye sigma prco` does. Ctrl-C ends the batch and prints the trials that have finished. If
+    you gave --out, repeat the command to continue the batch.
 
     Exit code 0: no silent failure; 1: no trial finished; 3: a silent failure: in some trial, the program ended but
         the referee disagrees.
@@ -259,8 +259,8 @@ def _check(subject: str, count: int, most: int, noun: str) -> None:
 
 
 def _plan(job: "JobName", pieces: int | None, file: Path | None) -> "MalPlan | None":
-    """Return the plan of a job's own program or, if `file` is given, of the program in that file for the same pieces.
-    Prints the mistakes of that program, and returns None if the program has errors.
+    """Return the plan of a job. It has the job's own program or, if `file` is given, the program in that file. Prints
+    the mistakes of a program from a file, and returns None if this program has errors.
     """
     from handeye.core.source import read_source
     from handeye.systems.sigma.cli.commands import reported

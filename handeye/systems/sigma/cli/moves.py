@@ -12,7 +12,7 @@ from handeye.systems.sigma.cli.studies import put_study
 def moves(
     *,
     n: Annotated[
-        WholeNumber, Parameter(name="--n", help="Number of worlds; world K has the seed --seed plus K.")
+        WholeNumber, Parameter(name="--n", help="Number of worlds. The seed of world K is --seed plus K.")
     ] = 10,
     seed: FirstSeed = 0,
     json: Json = False,

@@ -45,12 +45,15 @@ MEANS: Final = {
     "force": Means("force ARM", "apply known forces to a wrist, along each of its axes X, Y and Z"),
     "beam": Means(
         "beam ARM",
-        "read the light beam of a hand with nothing in it, then with a rod, then with a grey filter",
+        "read the light beam of a hand three times: with nothing in the beam, with a rod, and with a grey filter",
     ),
     "grip": Means("grip ARM", "close a hand on a block that is not midway between the fingers"),
     "origin": Means("origin AXIS", "move to the low end of a rail with ORIGIN"),
     "rail": Means("rail AXIS", "move to the high end of a rail"),
-    "moves": Means("moves AXIS", "move out at full speed, and look for lost steps at the low switch"),
+    "moves": Means(
+        "moves AXIS",
+        "move along a rail at full speed, then slowly back to the low switch, and look for lost steps",
+    ),
     "load": Means("load AXIS", "move slowly against a spring balance, and look for lost steps"),
     "together": Means("together", "move all axes at once at full speed, and look for lost steps"),
     "ask": Means("ask NAME", "ask a motor for its step count, or another microcomputer for its self-test"),

@@ -330,7 +330,7 @@ class Beam:
 
 
 def beam(at: Technician, arm: int) -> Beam:
-    """Read a light beam with nothing in it, then with a rod in it, then with a grey filter in it."""
+    """Read a light beam three times: with nothing in the beam, with a rod, and with a grey filter."""
     found: list[bool | None] = []
     for passes in (1.0, 0.0, GREY):
         at.shade(arm, passes)

@@ -27,7 +27,7 @@ class ForceMemory(MutableRecord, kw_only=True, tag="force"):
     thresholds: list[float] = field(default_factory=lambda: [STANDARD_N] * len(COMPONENTS))
     readings: list[float] = field(default_factory=lambda: [0.0] * len(COMPONENTS))
     peaks: list[float] = field(default_factory=lambda: [0.0] * len(COMPONENTS))
-    """The greatest magnitudes of the readings since they were last queried."""
+    """The greatest magnitude of each reading since this peak was last queried."""
     over: list[bool] = field(default_factory=lambda: [False] * len(COMPONENTS))
     """True for components whose last reading was above the threshold."""
 

@@ -30,7 +30,7 @@ WORDS: Final[dict[str, Word]] = {
     ),
     "GOTO": Word("statement", "GOTO line", "Go to a line of the same task.", "10 GOTO 200"),
     "GOSUB": Word(
-        "statement", "GOSUB line", "Go to a subroutine; its RETURN goes back to the next line.", "10 GOSUB 500",
+        "statement", "GOSUB line", "Go to a subroutine; its RETURN goes back to the line after GOSUB.", "10 GOSUB 500",
     ),
     "RETURN": Word("statement", "RETURN", "Go back to the line after the last GOSUB.", "570 RETURN"),
     "FOR": Word(

@@ -20,8 +20,8 @@ ArmKind = Annotated[
     Literal["none", "purbrick"],
     Parameter(
         name="--arm",
-        help="The arm: `none` is an ideal arm without physics; `purbrick` is the paper's arm, simulated. A script can "
-        "take other branches on another arm.",
+        help="The arm: `none` is an ideal arm without physics; `purbrick` is the paper's arm, simulated. The same "
+        "script can take different branches on the two arms.",
     ),
 ]
 TrigFile = Annotated[
@@ -66,7 +66,7 @@ def run(
 ) -> int:
     """Run a program from its first step. If FILE is a script, its lines are first typed one by one, as in the editor.
 
-    Exit code 0: the program has ended, and with --back everything is undone; 1: the arm stopped before that;
+    Exit code 0: the program has ended and, with --back, everything is undone; 1: the arm stopped too early;
     2: bad input; 130: interrupted.
     """
     from handeye.systems.trig.cli.sessions import opened, watched

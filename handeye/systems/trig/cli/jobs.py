@@ -95,7 +95,7 @@ def palletise(
     .3 mm. Then the program runs forwards, and a referee judges the result. Finally the program runs backwards, and the
     referee judges again. Twenty blocks take some minutes.
 
-    Exit code 0: every block was placed and taken back; 1: the arm stopped before that; 3: done, but the referee
+    Exit code 0: every block was placed and taken back; 1: the arm stopped too early; 3: done, but the referee
     disagrees; 2: bad input; 130: interrupted.
     """
     from handeye.systems.trig.jobs.benches import MOST_BLOCKS
@@ -120,7 +120,7 @@ def bucket(
     because a block in a bucket cannot be taken back (`handeye trig run plans/bucket.trig --arm purbrick --back` shows
     where the attempt stops).
 
-    Exit code 0: done and right; 1: the arm stopped before that; 3: done, but the referee disagrees; 2: bad input;
+    Exit code 0: done and right; 1: the arm stopped too early; 3: done, but the referee disagrees; 2: bad input;
     130: interrupted.
     """
     return _work("bucket", _world("bucket", seed, errors, fault), None, kept, json=json)

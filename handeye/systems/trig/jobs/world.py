@@ -62,7 +62,7 @@ VARIATION: Final = Variation(
         "",
         Range(0.3, 0.5),
         2.0,
-        "Coefficient of friction between a block and another block or the platter. No source: our choice, for dry "
+        "Coefficient of friction of a block on the platter and on another block. No source: our choice, for dry "
         "aluminium.",
     ),
     _quantity(

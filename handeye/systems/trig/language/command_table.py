@@ -148,7 +148,8 @@ TABLE: Final = (
     ),
     TrigCommand(
         usage="RUN [COUNT]", group=RUNS, takes=("count",), act=program_commands.run,
-        help="run the program from the top, or COUNT steps from the active step; with a minus, backwards",
+        help="run the program from the top; with COUNT, run COUNT steps from the active step; with a negative "
+        "COUNT, undo steps",
     ),
     TrigCommand(usage="W [FILE]", group=RUNS, takes=("file",), act=program_commands.write,
         help="write the program to a file"),

@@ -69,7 +69,8 @@ _WITHIN_DRIVES: Final = (
 
 _WITHIN_WEIGHTS: Final = (
     "Only joints 2 and 3 carry weight, and the arm knows the weight on joint 2 to within 6 %, and on joint 3 to "
-    "within 17 %. If the error is present from the start, the arm takes it for a different weight of the links."
+    "within 17 %. If the error is present from the start, the arm mistakes the error for a different weight of the "
+    "links."
 )
 _GAIN: Final = Size(unit="", usual=1.3, limits=(0.0, 3.0))
 

@@ -26,7 +26,9 @@ from handeye.vision.hole_search import hole_places
 
 WITHIN: Final = (INCH / 3, INCH / 4)  # accuracy of vision according to the paper, along x and along y
 WRONG_BEYOND_PX: Final = 5.0
-"""Offset (pixels) that no error of the camera explains: something else was taken for the hole."""
+"""No error of the camera explains an offset greater than this (pixels). If the offset is greater, vision took
+something else for the hole.
+"""
 
 
 class BaseAttempt(Attempt, frozen=True, kw_only=True):
