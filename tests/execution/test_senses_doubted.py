@@ -18,6 +18,7 @@ from handeye.core.pose import Array
 from handeye.core.units import DEGREE, INCH, OUNCE_INCH
 from handeye.ports.camera import COLUMNS, ROWS
 from handeye.ports.workcell import ArmReading, HandReading
+from handeye.program.events import ErrorRaised
 from handeye.program.program import Held
 
 DOWN = "STOP [0 0 -12]\nCHANGE [0 0 -1] .5"
@@ -305,6 +306,20 @@ def test_a_potentiometer_that_jumps_is_told_with_its_joint() -> None:
     run.go()
     assert run.errors == [errors.JOINT_SENSE_WRONG]
     assert "boom has moved" in run.told
+
+
+def test_a_potentiometer_that_jumps_while_the_force_takes_its_zero_ends_the_motion_at_once() -> None:
+    run = fake_run(DOWN)
+    drive, late = run.executor.run.drive, 0.1
+    drive.state.friction = np.array([2.0, 3.0, 6.0, 0.5, 0.5, 0.25])
+    reading(
+        run,
+        lambda read: replace(read, q=only(read.q, 2, read.q[2] * (0.1 if run.cell.clock.now > late else 1))),
+    )
+    run.go()
+    (raised,) = run.all(ErrorRaised)
+    assert raised.number == errors.JOINT_SENSE_WRONG
+    assert raised.time < late + 2 * drive.period
 
 
 def shifting(turn: float, closing: float) -> FakeRun:
