@@ -15,6 +15,7 @@ from msgspec.structs import replace
 from handeye.core import errors
 from handeye.core.errors import ERRORS
 from handeye.core.pose import Array
+from handeye.core.resources import plans
 from handeye.core.units import DEGREE, INCH, OUNCE_INCH
 from handeye.ports.camera import COLUMNS, ROWS
 from handeye.ports.workcell import ArmReading, HandReading
@@ -277,6 +278,17 @@ def test_from_the_air_it_is_taken_for_a_weight_that_has_changed(before: str) -> 
     run = bearing(f"{before}\nMOVE T")
     assert run.errors[-1] == errors.FORCE_WRONG
     assert "the weights of the links, as the drives feel them, have changed" in run.told
+
+
+@pytest.mark.slow
+def test_a_force_on_the_hand_over_the_top_is_that_of_a_top_which_stands_askew() -> None:
+    """The program's own lines, from the motion over the flange to the touch."""
+    script = (plans() / "water_pump.al").read_text(encoding="utf-8")
+    over = script[script.index("        MOVE    FLANGE") :]
+    lines = over[: over.index("        STOP")].replace("FLANGE", "T").splitlines()
+    tested = "\n".join(line for line in lines if "RESTORE" not in line)
+    run = bearing(f'CHANGE [0 0 1] 1\n{tested}\nWAIT "FLAT"\nASKEW: WAIT "ASKEW"')
+    assert (run.errors, run.told) == ([errors.FORCE_WRONG], "ASKEW")
 
 
 # -- the joints -----------------------------------------------------------------------------------------
