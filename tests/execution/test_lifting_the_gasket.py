@@ -9,7 +9,7 @@ from handeye.core.units import INCH
 pytestmark = pytest.mark.slow
 
 OFF = 0.14
-"""How far the hand is from the line through the large holes (in), as in the world of seed 972000: beside the flats of the
+"""How far (in) the hand is from the line of the large holes, as in the world of seed 972000. Beside the flats of the
 base, closing fingers would meet the round walls of its holes.
 """
 
