@@ -4,6 +4,7 @@ In a shadow, a part can be as dark as the lit background, and its outline then d
 darker than the face around them, because the same shadow lies on both.
 """
 
+import math
 from typing import Final
 
 import numpy as np
@@ -35,7 +36,8 @@ def locate_shaded(scan: Scan, view: View, part: Part) -> tuple[float, float, flo
     """
     assert part.region is not None
     large, small = part.holes[:2]
-    x, y = (np.arange(-half - BEYOND, half + BEYOND, GRID) for half in part.region)
+    beyond = BEYOND + math.hypot(large.x, large.y)
+    x, y = (np.arange(-half - beyond, half + beyond, GRID) for half in part.region)
     places = np.array(part.at[:2]) + np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
     contrast = _contrast(scan, view, part, places, large.diameter)
     seen = contrast >= CONTRAST
@@ -66,4 +68,4 @@ def _levels(scan: Scan, view: View, part: Part, centres: Array, radius: float) -
     points = np.full((len(centres), SECTORS, 3), part.at[2] + part.face)
     points[..., :2] = centres[:, None] + radius * _RAYS
     patches = scan.patches(view.project(points.reshape(-1, 3)), 1)
-    return patches.mean(axis=(1, 2)).reshape(len(centres), SECTORS)
+    return np.asarray(patches.mean(axis=(1, 2)).reshape(len(centres), SECTORS))
