@@ -14,7 +14,14 @@ from handeye.arm.computed_torque import prepare
 from handeye.arm.dynamics import Dynamics
 from handeye.arm.exertion import Exertion
 from handeye.arm.ik import solve
-from handeye.arm.joint_agreement import JointAgreement, Scatter, crept, scattered, swings_unevenly
+from handeye.arm.joint_agreement import (
+    Disagreement,
+    JointAgreement,
+    Scatter,
+    crept,
+    scattered,
+    swings_unevenly,
+)
 from handeye.arm.joint_drag import alone, stiff
 from handeye.arm.kinematics import jacobian
 from handeye.arm.model import constants
@@ -272,11 +279,16 @@ class ServoLoop(Servo):
 
         The force on the hand is computed from the rates, so a tachometer that scatters would be felt as a force. If
         the joints slide unevenly, the arm therefore also holds still without dither, and the rates are checked.
+
+        If the reading of a potentiometer jumps meanwhile, the motion ends at once: the servo would drive the joint
+        towards a place where it does not stand.
         """
-        if (yield from self._taring()):
-            scatter = yield from self._resting()
-            if scatter is not None and self.state.jump is None:  # a jump is reported by the motion
-                return self._scatters(scatter)
+        uneven = yield from self._taring()
+        scatter = (yield from self._resting()) if uneven else None
+        if self.state.jump is not None:
+            return self._apart(self.state.jump)
+        if scatter is not None:
+            return self._scatters(scatter)
         return self._force_in_air() if self.state.in_air and off_zero(self._unloaded()) else REACHED
 
     def _taring(self) -> Motion[bool]:
@@ -289,6 +301,8 @@ class ServoLoop(Servo):
         for tick in range(2 * settle if dither.any() else settle):
             shaken = dither if tick % 2 else -dither
             yield from self._approach(here, self.state.q, estimate=True, taring=True, dither=shaken)
+            if self.state.jump is not None:
+                return False
             felt.append(self.state.wrench)
             rates.append(self.sensed.qd)
         if dither.any():
@@ -303,6 +317,8 @@ class ServoLoop(Servo):
         here, rates = self.dynamics(), []
         for _ in range(2 * self.arm.servo.settle):
             yield from self._approach(here, self.state.q, estimate=False)
+            if self.state.jump is not None:
+                return None
             rates.append(self.sensed.qd)
         return scattered(self.arm, here.M, self.state.friction, np.array(rates[-self.arm.servo.settle :]))
 
@@ -370,14 +386,18 @@ class ServoLoop(Servo):
         """
         change, self.state.crept = self.state.crept, None  # under the brakes; reported once
         rested = None if change is None else crept(self.arm, change)
-        leapt, self.state.jump = self.state.jump, None
         if self.state.tool:
             sensors.begin_anew(sensed.q, sensed.qd)
-            found = leapt or rested
+            found = self.state.jump or rested
         else:
-            found = leapt or rested or sensors.step(sensed.q, sensed.qd, self._unseen)
-        if found is None:
-            return None
+            found = self.state.jump or rested or sensors.step(sensed.q, sensed.qd, self._unseen)
+        return None if found is None else self._apart(found)
+
+    def _apart(self, found: Disagreement) -> Outcome:
+        """Return the error of a joint whose sensors disagree, and make the measured position of the arm the
+        set-point.
+        """
+        self.state.jump = None  # reported once
         self.state.q = self.state.here.copy()
         cause = JointSensesApart(
             joint=self._named(found.joint),

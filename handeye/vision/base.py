@@ -32,6 +32,7 @@ from handeye.vision.hole_search import (
     placed,
 )
 from handeye.vision.scan import Scan
+from handeye.vision.shaded import locate_shaded
 
 TURNS: Final = np.linspace(-40, 40, 9) * DEGREE
 WIDTHS: Final = (0.8, 1.2)
@@ -146,8 +147,9 @@ class SpecificLocation:
 
 
 def locate_general(picture: Picture, view: View, part: Part) -> GeneralLocation | Failure:
-    """Find the outline of a part in a picture of the region where the part may be. Raises BadArgument if the part
-    has no outline or no region.
+    """Find the outline of a part in a picture of the region where the part may be. If the outline does not stand
+    out, because a shadow lies on the part, find its two large holes. Raises BadArgument if the part has no outline or
+    no region.
     """
     if part.region is None or part.outline is None:
         raise BadArgument("vision needs the region and the outline of a part, but one of them is missing")
@@ -158,7 +160,16 @@ def locate_general(picture: Picture, view: View, part: Part) -> GeneralLocation 
         )  # `fits` decides by size whether the box is the part
         if box is not None:
             return _general(scan, view, part, box)
-    return Failure(cause=NoOutline())
+    shaded = locate_shaded(scan, view, part) if len(part.holes) > 1 else None
+    return Failure(cause=NoOutline()) if shaded is None else _placed(scan, view, part, shaded)
+
+
+def _placed(scan: Scan, view: View, part: Part, pose: tuple[float, float, float]) -> GeneralLocation:
+    """Return the location of a part whose pose is roughly known."""
+    x, y, yaw = pose
+    (outline,) = silhouettes(view, part, (x, y), np.array([yaw - part.at[3]]))
+    box = BoundingBox(*np.rint([*outline.min(axis=0), *outline.max(axis=0)]).astype(int).tolist())
+    return _located(scan, view, part, box, (x, y))
 
 
 def _general(scan: Scan, view: View, part: Part, box: BoundingBox) -> GeneralLocation:
@@ -169,11 +180,17 @@ def _general(scan: Scan, view: View, part: Part, box: BoundingBox) -> GeneralLoc
         (outline,) = silhouettes(view, part, xy, np.zeros(1))
         middle = (outline.min(axis=0) + outline.max(axis=0)) / 2
         xy = xy + seen - view.back_project(middle, middle_z)[0, :2]
-    corners = view.back_project(box.corners(), middle_z)
+    return _located(scan, view, part, box, (float(xy[0]), float(xy[1])))
+
+
+def _located(
+    scan: Scan, view: View, part: Part, box: BoundingBox, place: tuple[float, float]
+) -> GeneralLocation:
+    corners = view.back_project(box.corners(), part.at[2] + part.face / 2)
     return GeneralLocation(
         box=box,
-        x=float(xy[0]),
-        y=float(xy[1]),
+        x=place[0],
+        y=place[1],
         corners=tuple((float(x), float(y), float(z)) for x, y, z in corners),
         beams=scan.beams,
         points=scan.points,

@@ -11,7 +11,7 @@ import pytest
 from pump_bench import LAID, Bench, bench, put, shifted, stacked, stage
 
 from handeye.cell.threads import SQUARE, holes_of
-from handeye.core.errors import WRONG_TRAVEL
+from handeye.core.errors import SERVO_LAG, WRONG_TRAVEL
 from handeye.core.pose import Pose, planar, pose, rotation_x, translated
 from handeye.core.units import INCH
 from handeye.program.events import GuardTripped
@@ -83,3 +83,12 @@ def test_row_60_a_crossed_screw_is_backed_out_and_goes_home_in_a_scarred_thread(
     thread = holes_of(run.cell.truth)[0]
     assert (run.finished, thread.screw, thread.crossed, thread.scarred) == (True, 0, False, True)
     assert thread.clamp > 40.0
+
+
+def test_a_screw_that_is_backed_out_lifts_the_hand_and_does_not_push_it_off_its_set_point() -> None:
+    """The limit of the depth is wrong, so that the program backs the first screw out, which is home."""
+    text = stage("drive the first two screws").replace("TRAVEL  .2 .3", "TRAVEL  .33 .4")
+    first = text[: text.index("        SCREW   S2")]
+    run = bench(first, lay=stacked(), felt={"LAID": LAID}).to("SOJG")
+    assert (WRONG_TRAVEL in run.errors, SERVO_LAG in run.errors) == (True, False)
+    assert holes_of(run.cell.truth)[0].clamp < 1e-6

@@ -15,9 +15,11 @@ from msgspec.structs import replace
 from handeye.core import errors
 from handeye.core.errors import ERRORS
 from handeye.core.pose import Array
+from handeye.core.resources import plans
 from handeye.core.units import DEGREE, INCH, OUNCE_INCH
 from handeye.ports.camera import COLUMNS, ROWS
 from handeye.ports.workcell import ArmReading, HandReading
+from handeye.program.events import ErrorRaised
 from handeye.program.program import Held
 
 DOWN = "STOP [0 0 -12]\nCHANGE [0 0 -1] .5"
@@ -278,6 +280,17 @@ def test_from_the_air_it_is_taken_for_a_weight_that_has_changed(before: str) -> 
     assert "the weights of the links, as the drives feel them, have changed" in run.told
 
 
+@pytest.mark.slow
+def test_a_force_on_the_hand_over_the_top_is_that_of_a_top_which_stands_askew() -> None:
+    """The program's own lines, from the motion over the flange to the touch."""
+    script = (plans() / "water_pump.al").read_text(encoding="utf-8")
+    over = script[script.index("        MOVE    FLANGE") :]
+    lines = over[: over.index("        STOP")].replace("FLANGE", "T").splitlines()
+    tested = "\n".join(line for line in lines if "RESTORE" not in line)
+    run = bearing(f'CHANGE [0 0 1] 1\n{tested}\nWAIT "FLAT"\nASKEW: WAIT "ASKEW"')
+    assert (run.errors, run.told) == ([errors.FORCE_WRONG], "ASKEW")
+
+
 # -- the joints -----------------------------------------------------------------------------------------
 
 
@@ -305,6 +318,20 @@ def test_a_potentiometer_that_jumps_is_told_with_its_joint() -> None:
     run.go()
     assert run.errors == [errors.JOINT_SENSE_WRONG]
     assert "boom has moved" in run.told
+
+
+def test_a_potentiometer_that_jumps_while_the_force_takes_its_zero_ends_the_motion_at_once() -> None:
+    run = fake_run(DOWN)
+    drive, late = run.executor.run.drive, 0.1
+    drive.state.friction = np.array([2.0, 3.0, 6.0, 0.5, 0.5, 0.25])
+    reading(
+        run,
+        lambda read: replace(read, q=only(read.q, 2, read.q[2] * (0.1 if run.cell.clock.now > late else 1))),
+    )
+    run.go()
+    (raised,) = run.all(ErrorRaised)
+    assert raised.number == errors.JOINT_SENSE_WRONG
+    assert raised.time < late + 2 * drive.period
 
 
 def shifting(turn: float, closing: float) -> FakeRun:

@@ -109,6 +109,28 @@ def test_a_shadow_across_the_border_of_the_largest_hole_does_not_hide_it():
     assert found.pose[:2] == pytest.approx(POSES[0][:2], abs=0.03 * INCH)
 
 
+def in_a_shadow(pose: tuple[float, float, float] | None) -> GeneralLocation | Failure:
+    """What is found in the wide picture if half of the light falls on the base and on the belt around it, so that the
+    face is hardly brighter than the belt beside the shadow.
+    """
+    where, canvas = view(0.025, PART.at[:3]), Canvas(level=5.0)
+    if pose is not None:
+        draw_base(canvas, where, PART, pose)
+    u, _ = (where.project(np.array([*POSES[0][:2], 2.75 * INCH]))[0] * FINE).astype(int)
+    canvas.fine[:, u - 60 * FINE : u + 60 * FINE] *= 0.5
+    return locate_general(canvas.picture(np.random.default_rng(2), noise=1.0, blur=0.6), where, PART)
+
+
+def test_a_base_whose_outline_does_not_stand_out_in_a_shadow_is_found_by_its_holes():
+    found = in_a_shadow(POSES[0])
+    assert isinstance(found, GeneralLocation)
+    assert math.dist((found.x, found.y), POSES[0][:2]) < 0.5 * INCH
+
+
+def test_a_shadow_on_an_empty_belt_is_not_taken_for_the_base():
+    assert in_a_shadow(None) == Failure(cause=NoOutline())
+
+
 @pytest.mark.row(54)
 def test_a_part_whose_largest_hole_is_hidden_is_not_guessed():
     found = located(POSES[0], holes=1)
