@@ -6,7 +6,7 @@ measurement.
 
 from collections.abc import Callable
 from functools import cache
-from typing import Final
+from typing import Any, Final
 
 import mujoco
 import numpy as np
@@ -57,7 +57,7 @@ def _smooth(rng: np.random.Generator, along_x: float, along_y: float, size: int 
     return np.asarray((soft - soft.mean()) / soft.std())
 
 
-def _passed(sigma: float, frequencies: Array) -> Array:
+def _passed(sigma: float, frequencies: NDArray[np.floating[Any]]) -> Array:
     """Return the fraction of each frequency (1/pixel) that a Gaussian blur passes."""
     return np.asarray(np.exp(-2 * (np.pi * sigma * frequencies) ** 2))
 
