@@ -103,7 +103,10 @@ def cross(a: Array, b: Array) -> Array:
     """Return the cross product over the last axis. On small arrays this is several times faster than `numpy.cross`."""
     ax, ay, az = a[..., 0], a[..., 1], a[..., 2]
     bx, by, bz = b[..., 0], b[..., 1], b[..., 2]
-    return np.stack([ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx], axis=-1)
+    x = ay * bz - az * by
+    product = np.empty((*x.shape, 3))
+    product[..., 0], product[..., 1], product[..., 2] = x, az * bx - ax * bz, ax * by - ay * bx
+    return product
 
 
 def forward(arm: ArmModel, q: Array) -> Pose:
@@ -121,9 +124,10 @@ def jacobian(arm: ArmModel, q: Array) -> Array:
     return tool_jacobian(arm, *chain(arm, q))
 
 
-def drift(arm: ArmModel, q: Array, qd: Array) -> Array:
-    """Return the acceleration of T at joint rates `qd` and zero joint accelerations (dJ/dt qd), shape (..., 6)."""
-    R, p = chain(arm, q)
+def drift(arm: ArmModel, R: Array, p: Array, qd: Array) -> Array:
+    """Return the acceleration of T at joint rates `qd` and zero joint accelerations (dJ/dt qd), shape (..., 6), in the
+    configuration with the frames `R`, `p`.
+    """
     tool, last = p[..., -1:, :], np.full(1, len(arm.joints) - 1)
     linear, _ = point_jacobian(arm, R, p, tool)
     bend, spin = centripetal(arm, R, p, tool, linear, last, qd)

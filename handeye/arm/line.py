@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from handeye.arm.ik import IKResult, branches, rates, singular, solve
-from handeye.arm.kinematics import drift, forward, jacobian
+from handeye.arm.kinematics import chain, drift, forward, tool_jacobian
 from handeye.arm.model import ArmModel, constants
 from handeye.arm.profiles import PEAK_ACCELERATION, PEAK_SPEED
 from handeye.arm.samples import Samples, check_samples, length
@@ -118,13 +118,14 @@ def _follow(arm: ArmModel, q_start: Array, X: Pose, V: Array, A: Array) -> Sampl
     fault = check_samples(arm, Samples(q=q, qd=q, qdd=q))
     if fault is not None:
         return fault
-    J = jacobian(arm, q)
+    R, p = chain(arm, q)
+    J = tool_jacobian(arm, R, p)
     qd = rates(arm, q, J, V)
     if (np.abs(qd) > constants(arm).speed).any():
         tick, joint = divmod(int(np.argmax(np.abs(qd) / constants(arm).speed)), qd.shape[1])
         rate = abs(float(qd[tick, joint]))
         return IKResult(reason=TooFast(joint, rate, arm.joints[joint].speed), along=length(X[: tick + 1]))
-    return Samples(q=q, qd=qd, qdd=rates(arm, q, J, A - drift(arm, q, qd)))
+    return Samples(q=q, qd=qd, qdd=rates(arm, q, J, A - drift(arm, R, p, qd)))
 
 
 def _shortest(step: Array, turn: Array) -> Array:

@@ -34,6 +34,7 @@ drives a motor must therefore wake the tree of this motor.
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any, Final
 
 import mujoco
@@ -57,6 +58,7 @@ _WHOLE_STATE: Final = int(mujoco.mjtState.mjSTATE_INTEGRATION)
 RESTING: Final = 1e-2
 """Largest speed (rad/s, m/s) of a joint at rest. Our choice: a joint held by friction creeps at less than 1e-4."""
 _STIFFEST: Final = 0.9999  # MuJoCo's limit for the impedance of a constraint
+_JUDGED: Final = 1000  # sets of pairs of bodies that are remembered
 BodyPairs = frozenset[tuple[int, int]]  # numbers of bodies, the smaller first
 
 
@@ -141,6 +143,7 @@ class PhysicsStepper:
         """`carrying` gives the contacts that are allowed in longer steps. By default no contacts are allowed."""
         self._model, self._data, self._short = model, data, float(model.opt.timestep)
         self._option, self._contacts = model.opt, ContactMemo(data, self._judged)
+        self._allowing = lru_cache(maxsize=_JUDGED)(self._allowed_by)
         self._moves = (data.qpos, data.qvel, data.act, data.qacc_warmstart)
         self._kept = [values.copy() for values in self._moves]
         self._warnings, self._before = data.warning.number, np.empty(mujoco.mj_stateSize(model, _WHOLE_STATE))
@@ -218,9 +221,16 @@ class PhysicsStepper:
         data.time = began + steps * self._short
 
     def _judged(self, geoms: NDArray[np.int32]) -> _Contacts:
-        bodies = np.sort(self._model.geom_bodyid[geoms], axis=1)
+        first, second = self._model.geom_bodyid[geoms].T.tolist()
+        return self._allowing(
+            frozenset([(a, b) if a < b else (b, a) for a, b in zip(first, second, strict=True)])
+        )
+
+    def _allowed_by(self, pairs: BodyPairs) -> _Contacts:
+        """Judge contacts by the bodies that touch. Many sets of contacts have the same bodies."""
+        bodies = np.array(sorted(pairs), dtype=np.intp).reshape(-1, 2)
         first, second = self._model.body_treeid[bodies].T
-        pairs, carried = _pairs(bodies), bool(self._carried[first, second].all())
+        carried = bool(self._carried[first, second].all())
         return _Contacts(
             pairs=pairs,
             of_hand=_pairs(bodies[self._handled[first, second]]),

@@ -1,6 +1,7 @@
 """The command line: parses arguments, calls the other packages, and prints results."""
 
 import codecs
+import gc
 import io
 import os
 import sys
@@ -53,6 +54,7 @@ def main() -> NoReturn:
     except OSError as error:
         code = _complained(f"standard output: {error.strerror}")
     let_go_of_streams()
+    gc.freeze()  # the process ends: a search for garbage would only take time
     sys.exit(code)
 
 

@@ -45,12 +45,11 @@ def shift(first: Picture, second: Picture, where: Points | None = None) -> Array
     only if it is in the mask `where`; without a mask, all points count.
     """
     a, b = smooth(first), smooth(second)
-    counts = np.ones(first.shape, dtype=np.bool_) if where is None else where
     reach = range(-MAX_SHIFT, MAX_SHIFT + 1)
-    rough = min(((u, v) for v in reach for u in reach), key=lambda uv: _disagreement(a, b, counts, *uv))
+    rough = min(((u, v) for v in reach for u in reach), key=lambda uv: _disagreement(a, b, where, *uv))
     offset = np.array(rough, dtype=float)
     for _ in range(STEPS):
-        offset = offset + _step(a, moved(b, -offset), counts)
+        offset = offset + _step(a, moved(b, -offset), where)
     return offset
 
 
@@ -64,26 +63,31 @@ def smooth(picture: Picture | Levels) -> Levels:
     return cv2.GaussianBlur(picture.astype(np.float32), (0, 0), BLUR).astype(np.float32)
 
 
-def _disagreement(a: Levels, b: Levels, counts: Points, u: int, v: int) -> float:
+def _disagreement(a: Levels, b: Levels, where: Points | None, u: int, v: int) -> float:
     """Return the mean difference of two pictures, capped at each point, with the second picture shifted back by (u,
-    v). Only every second point is compared, because the pictures are smoothed.
+    v). Only every second point is compared, because the pictures are smoothed. For `where` see `shift`.
     """
     rows, columns = a.shape
     here = a[MARGIN : rows - MARGIN : 2, MARGIN : columns - MARGIN : 2]
     there = b[MARGIN + v : rows - MARGIN + v : 2, MARGIN + u : columns - MARGIN + u : 2]
-    these = counts[MARGIN : rows - MARGIN : 2, MARGIN : columns - MARGIN : 2]
-    return float(np.minimum(np.abs(there - here), CHANGED)[these].mean())
+    off = there - here
+    np.minimum(np.abs(off, out=off), CHANGED, out=off)
+    these = slice(None) if where is None else where[MARGIN : rows - MARGIN : 2, MARGIN : columns - MARGIN : 2]
+    return float(off[these].mean())
 
 
-def _step(a: Levels, b: Levels, counts: Points) -> Array:
+def _step(a: Levels, b: Levels, where: Points | None) -> Array:
     """Estimate the remaining shift of the second picture in fractions of a point, shape (2,), from the gradients of
-    intensity where the pictures agree.
+    intensity where the pictures agree. For `where` see `shift`.
     """
-    mean = (a + b) / 2
     inside = np.s_[MARGIN:-MARGIN, MARGIN:-MARGIN]
     near = cv2.dilate(changed(a, b).astype(np.uint8), np.ones((CLEAR, CLEAR), np.uint8))
-    same = ((near == 0) & counts)[inside]
-    slope = np.stack([np.gradient(mean, axis=axis)[inside][same] for axis in (1, 0)])
+    same = near[inside] == 0
+    if where is not None:
+        same &= where[inside]
+    mean = ((a + b) / 2)[MARGIN - 1 : 1 - MARGIN, MARGIN - 1 : 1 - MARGIN]
+    across, down = mean[1:-1, 2:] - mean[1:-1, :-2], mean[2:, 1:-1] - mean[:-2, 1:-1]
+    slope = np.stack([across[same], down[same]]) / 2
     off = (a - b)[inside][same]
     step, *_ = np.linalg.lstsq(slope @ slope.T, slope @ off, rcond=None)  # zero, if no part is unchanged
     return np.asarray(step, dtype=float)
@@ -113,8 +117,8 @@ def find_spot(dark_picture: Picture, lit_picture: Picture) -> tuple[float, float
     v, u = np.unravel_index(int(np.argmax(smooth)), smooth.shape)
     if smooth[v, u] < LEVEL:
         return None
-    rows, columns = np.mgrid[0 : smooth.shape[0], 0 : smooth.shape[1]]
-    near = np.hypot(rows - v, columns - u) <= RADIUS
+    rows, columns = np.ogrid[0 : smooth.shape[0], 0 : smooth.shape[1]]
+    near = (rows - v) ** 2 + (columns - u) ** 2 <= RADIUS**2
     if (smooth[~near] > max(LEVEL, 0.7 * float(smooth[v, u]))).any():
         return None
     weight = np.where(near, np.clip(smooth - 0.3 * smooth[v, u], 0, None), 0)

@@ -6,7 +6,7 @@ import pytest
 from arm_in_mujoco import build, postures
 from robots import ROBOTS
 
-from handeye.arm.kinematics import drift, forward, jacobian
+from handeye.arm.kinematics import chain, drift, forward, jacobian
 from handeye.arm.model import ArmModel
 
 ARMS = pytest.mark.parametrize("arm", [robot.arm for robot in ROBOTS.values()], ids=list(ROBOTS))
@@ -33,5 +33,5 @@ def test_drift_is_the_acceleration_left_at_constant_joint_rates(arm: ArmModel) -
     qd = np.random.default_rng(2).normal(size=q.shape)
     J = [jacobian(arm, q + s * h * qd) for s in (1, -1)]
     np.testing.assert_allclose(
-        drift(arm, q, qd), (((J[0] - J[1]) / (2 * h)) @ qd[..., None])[..., 0], atol=1e-5
+        drift(arm, *chain(arm, q), qd), (((J[0] - J[1]) / (2 * h)) @ qd[..., None])[..., 0], atol=1e-5
     )

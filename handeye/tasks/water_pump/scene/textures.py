@@ -6,7 +6,7 @@ measurement.
 
 from collections.abc import Callable
 from functools import cache
-from typing import Final
+from typing import Any, Final
 
 import mujoco
 import numpy as np
@@ -17,6 +17,7 @@ from handeye.core.pose import Array
 _SIZE: Final = 512
 _BENCH: Final = 1024  # px; more than for others, because photographs show most of the bench
 _BOARDS: Final = 33
+_LOST: Final = 1e-9  # fraction of a frequency that changes no level
 Grain = Callable[[np.random.Generator], Array]
 """Function that computes a square picture of relative intensities, shape (n, n, 3)."""
 
@@ -40,18 +41,25 @@ def add_textures(spec: mujoco.MjSpec) -> None:
 def _pixels() -> dict[str, NDArray[np.uint8]]:
     """Return the pictures of the grains, by name."""
     return {
-        name: np.clip(255 * grain(np.random.default_rng(number)), 0, 255).astype(np.uint8)
+        name: (255 * grain(np.random.default_rng(number)).clip(0, 1)).astype(np.uint8)
         for number, (name, grain) in enumerate(_GRAINS.items())
     }
 
 
 def _smooth(rng: np.random.Generator, along_x: float, along_y: float, size: int = _SIZE) -> Array:
     """Return noise blurred with Gaussians of these standard deviations (pixels). The noise wraps around at the
-    edges and has unit variance."""
-    noise, rows, columns = rng.standard_normal((size, size)), np.fft.fftfreq(size), np.fft.rfftfreq(size)
-    window = np.exp(-2 * np.pi**2 * np.add.outer((along_y * rows) ** 2, (along_x * columns) ** 2))
-    soft = np.fft.irfft2(np.fft.rfft2(noise) * window)
+    edges and has unit variance. Frequencies that the blur removes are not computed."""
+    down, across = _passed(along_y, np.fft.fftfreq(size)), _passed(along_x, np.fft.rfftfreq(size))
+    kept = np.count_nonzero(across > _LOST)
+    spectrum = np.fft.rfft(rng.standard_normal((size, size)), axis=1)[:, :kept]
+    spectrum = np.fft.ifft(np.fft.fft(spectrum, axis=0) * np.outer(down, across[:kept]), axis=0)
+    soft = np.fft.irfft(spectrum, size, axis=1)
     return np.asarray((soft - soft.mean()) / soft.std())
+
+
+def _passed(sigma: float, frequencies: NDArray[np.floating[Any]]) -> Array:
+    """Return the fraction of each frequency (1/pixel) that a Gaussian blur passes."""
+    return np.asarray(np.exp(-2 * (np.pi * sigma * frequencies) ** 2))
 
 
 def _tinted(value: Array, tint: tuple[float, float, float] = (1.0, 1.0, 1.0)) -> Array:
