@@ -90,8 +90,8 @@ WORDS: Final[dict[str, Word]] = {
     ),
     "ORIGIN": Word(
         "statement", "ORIGIN axis {, axis}",
-        "Move axes to the low ends of their rails, all at the same time, and count from there. If an axis has lost "
-        "steps since its last ORIGIN, the program stops.",
+        "Move axes to the low ends of their rails, all at the same time, and count from these ends. If an axis has "
+        "lost steps since its last ORIGIN, the program stops.",
         "20 ORIGIN X1, Y1, Z1",
     ),
     "SPEED": Word("statement", "SPEED axis, expression", "Limit the speed of an axis (in mm/s); 0 means no limit.",
