@@ -108,8 +108,8 @@ _MEANINGS: Final = {
     "SOJG": "subtract one from a counter, and jump to the label if the counter is still positive",
     "JUMP": "continue at the label",
     "WAIT": "set the brakes and show the operator a text; without an operator the run ends here",
-    "UNDO": "make the arm undo this stage, and start the stage again: once, or at most the given number of times; "
-    "after that, the UNDO has no effect and the program continues",
+    "UNDO": "make the arm undo this stage, and start the stage again. The UNDO does this once, or at most the given "
+    "number of times; after that, the UNDO has no effect, and the program continues",
     "TRANS": "define a hand position by x, y, z (inches) and the angles O, A, T (degrees), in table coordinates or "
     "relative to a part",
     "VECT": "define a vector for STOP, FORCE or CHANGE: a force (oz), a moment (oz-in) or a direction; "

@@ -25,7 +25,7 @@ _FOUND_IN: Final = {
     None: "handeye adds this {}.",
     Document.PAPER_1973: "The paper of 1973 has this {}.",
     Document.MANUAL_1973: "The arm program's manual of 1973 has this {}.",
-    Document.MANUAL_1976: "A manual of 1976, of a later arm program, has this {}.",
+    Document.MANUAL_1976: "A manual of 1976, which describes a later arm program, has this {}.",
     Document.LISTING_1977: "The listing of 1977 has this {}. We know this listing only from memory.",
     Document.MEMORY: "We remember this {} from a later publication, and have not verified it.",
 }

@@ -111,12 +111,12 @@ CODES: Final[dict[str, Code]] = {
     "macro-name-taken": _error("a macro has the name of an instruction", "DEFINE OPEN\nPARK\n\nPARK"),
     "macro-twice": _error("two macros have the same name", "DEFINE A\nPARK\n\nDEFINE A\nPARK\n\nA"),
     "faint-force": _planning(
-        "the force of a STOP is so small that joint friction may feel like this force, even in free air",
+        "the force of a STOP is so small that the arm may mistake joint friction for this force, even in free air",
         "MOVE T\nSTOP [0 0 -5]\nCHANGE Z -1",
         "warning",
     ),
     "faint-moment": _planning(
-        "the moment of a STOP is so small that joint friction may feel like this moment, even in free air",
+        "the moment of a STOP is so small that the arm may mistake joint friction for this moment, even in free air",
         "MOVE T\nSTOP NIL [5 0 0]\nCHANGE Z -1",
         "warning",
     ),
@@ -206,7 +206,7 @@ CODES: Final[dict[str, Code]] = {
         "warning",
     ),
     "test-of-no-effect": _warning(
-        "a test skips only another test, so the error of the first test has no effect on what follows",
+        "a test skips only another test, so what follows does not depend on the error of the first test",
         "L: CLOSE .1 .2\nSKIPE 2\nSKIPE 7\nJUMP L\nPARK",
     ),
     "test-without-action": _warning("a test does not directly follow an action", "SKIPE 23\nPARK"),
@@ -274,7 +274,7 @@ CODES: Final[dict[str, Code]] = {
         "a WAIT seems to be intended as a delay, but WAIT calls the operator", "PARK\nWAIT 2"
     ),
     "wrist-in-line": _planning(
-        "a straight motion passes a point where the axes of two joints line up and the hand cannot keep its angles",
+        "a straight motion passes a point at which the axes of two joints line up, and the hand cannot keep its angles",
         "TRANS AHEAD [14 40 24 180 0 0]\nMOVE AHEAD\nCHANGE [0 0 -1] 4",
     ),
     "wrong-operand": _error("an operand is of the wrong kind", "OPEN T"),

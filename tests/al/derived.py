@@ -23,9 +23,9 @@ INTRODUCTION = """\
 # What can be wrong with a program
 
 The checker finds {} kinds of mistake. For each kind, this page gives the code, an example, and the message for this
-example. `handeye explain CODE` prints the same for one code, and says how to correct the mistake if a usual correction
-exists. An *error* prevents a plan; a *warning* does not. Mistakes *in the text* are found while the script is read, and
-mistakes *in planning* while its motions are planned.
+example. `handeye explain CODE` prints the example and the message of one code, and says how to correct the mistake if a
+usual correction exists. An *error* prevents a plan; a *warning* does not. Mistakes *in the text* are found while the
+script is read, and mistakes *in planning* while its motions are planned.
 """
 
 

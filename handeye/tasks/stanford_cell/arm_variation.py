@@ -148,7 +148,7 @@ def _friction() -> Iterator[Quantity]:
     yield from group(
         "arm.friction", dict([first]), _TORQUES[:1], what, nominal=means[0], least=0.0,
         unsourced="the friction of the other joints is inferred from the paper: these joints hold their weight when "
-        f"the arm is released. The paper gives no such check for joint 1, which carries no weight. {DOUBLED}",
+        f"the arm is released. Joint 1 carries no weight, so the paper says nothing about its friction. {DOUBLED}",
     )  # fmt: skip
     yield from group(
         "arm.friction", dict(others), _TORQUES[1:],

@@ -79,7 +79,7 @@ CODES: Final[dict[str, Mistake]] = {
         meaning="a line has more than 500 characters", example=f"10 PRINT{' ' * 500}1", cure="remove blanks",
     ),
     "loop-without-end": Mistake(
-        meaning="a LOOPI or LOOPJ has no NEXTI or NEXTJ after it", example="10 LOOPI 3\n20 ADD 1 1",
+        meaning="a LOOPI has no NEXTI after it, or a LOOPJ has no NEXTJ after it", example="10 LOOPI 3\n20 ADD 1 1",
         cure="write NEXTI or NEXTJ after the statements to repeat",
     ),
     "not-stored": Mistake(

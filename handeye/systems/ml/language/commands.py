@@ -203,7 +203,7 @@ _ROWS: Final[dict[Category, tuple[tuple[str, str, str, str], ...]]] = {
         ("DHAND", "x11 [x12]", "Change the separation of the fingers by x11, and the angle between them by x12.",
          "30 DHAND -50"),
         ("GOLINE", "n1 n2", (
-            "Of the positions on the line through two POINTs, go to the one that is nearest to the present goals."
+            "Go to a position on the line through two POINTs: the position that is nearest to the present goals."
         ),
          "40 GOLINE 5 10"),
         ("GOMEAN", "n1 n2", "Go to the position halfway between two POINTs.", "40 GOMEAN 5 10"),

@@ -20,9 +20,9 @@ def axis(
     curve: Annotated[
         WholeNumber,
         Parameter(
-            help="Acceleration curve. 0 is the usual curve, with a top speed of 13333 steps/s; 1 has a top speed of "
-            "15000 steps/s; 2 accelerates half as fast as 0, and 3 a quarter as fast as 0; 4 has half the "
-            "start/stop speed."
+            help="Acceleration curve. Curve 0 is the usual one, with a top speed of 13333 steps/s. Curve 1 has a top "
+            "speed of 15000 steps/s. Curve 2 accelerates half as fast as curve 0, and curve 3 a quarter as fast. "
+            "Curve 4 has half the start/stop speed."
         ),
     ] = 0,
     slow: Annotated[

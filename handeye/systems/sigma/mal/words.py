@@ -90,17 +90,17 @@ WORDS: Final[dict[str, Word]] = {
     ),
     "ORIGIN": Word(
         "statement", "ORIGIN axis {, axis}",
-        "Move axes to the low ends of their rails, all at the same time, and count from there. If an axis has lost "
-        "steps since its last ORIGIN, the program stops.",
+        "Move axes to the low ends of their rails, all at the same time, and count from these ends. If an axis has "
+        "lost steps since its last ORIGIN, the program stops.",
         "20 ORIGIN X1, Y1, Z1",
     ),
     "SPEED": Word("statement", "SPEED axis, expression", "Limit the speed of an axis (in mm/s); 0 means no limit.",
                   "10 SPEED X1, 100"),
     "CURVE": Word(
         "statement", "CURVE axis, expression",
-        "Choose how an axis accelerates: 0 is the usual curve, with a top speed of 500 mm/s; 1 has a top speed of "
-        "562.5 mm/s; 2 accelerates half as fast as 0, and 3 a quarter as fast as 0; 4 has half the start/stop "
-        "speed.",
+        "Choose the curve by which an axis accelerates. Curve 0 is the usual one, with a top speed of 500 mm/s. Curve "
+        "1 has a top speed of 562.5 mm/s. Curve 2 accelerates half as fast as curve 0, and curve 3 a quarter as "
+        "fast. Curve 4 has half the start/stop speed.",
         "10 CURVE Z1, 2",
     ),
     "LIMIT": Word(
