@@ -1,4 +1,6 @@
-"""Events of a relay: legs that take the arm over. The events of the legs themselves are those of their systems."""
+"""Events of a relay: legs that take the arm over, and that leave it. The events of the legs themselves are those of
+their systems.
+"""
 
 from collections.abc import Mapping
 from typing import Any, Final
@@ -28,6 +30,17 @@ class LegStarted(SystemEvent, frozen=True, kw_only=True):
         return f"{entry_named(self.system).title} takes the arm over with {self.program}: {holds}{names}"
 
 
+class LegFinished(SystemEvent, frozen=True, kw_only=True):
+    """A leg has ended, its brakes are set, and its hand-over record is made."""
+
+    stage: str
+    system: str
+    program: str
+
+    def sentence(self, measures: Measures) -> str:
+        return f"{entry_named(self.system).title} gives the arm up: {self.program} has ended, and the brakes are set"
+
+
 def _kind(system: str, kind: type[SystemEvent]) -> type[SystemEvent]:
     """Return a kind of event of a system under a new name, which no other system has."""
     name = f"{system.capitalize()}{kind.__name__}"
@@ -45,7 +58,7 @@ OF_LEGS: Final[Mapping[type, type[SystemEvent]]] = {
     for kind in loaded(entry.events)
 }
 """Kinds of events in a relay. The key is the kind of event that the system of the leg reports."""
-EVENTS: Final[tuple[Any, ...]] = (LegStarted, *OF_LEGS.values())
+EVENTS: Final[tuple[Any, ...]] = (LegStarted, LegFinished, *OF_LEGS.values())
 
 
 def of_leg(event: AnyEvent) -> AnyEvent:

@@ -43,7 +43,7 @@ from handeye.systems.relay.executed import (
     own_legs,
     own_order,
 )
-from handeye.systems.relay.happenings import LegStarted, of_leg
+from handeye.systems.relay.happenings import LegFinished, LegStarted, of_leg
 from handeye.systems.relay.plan import Leg, RelayPlan, legs, listing
 from handeye.systems.relay.state import RelayCore
 from handeye.tasks import task
@@ -237,8 +237,11 @@ class RunningRelay(RunningSystem):
         state = self._state
         state.records.append(self._running.leave(state.record))
         state.station = self._running.station
-        if self.leg.onward is not None:
-            before = self.leg
+        before = self.leg
+        self._around.emit(
+            LegFinished(time=self.time, stage=before.stage, system=before.system.system, program=before.file)
+        )
+        if before.onward is not None:
             state.leg, state.entered = state.leg + 1, False
             own = self._running.state
             goes_on = self.leg.file == before.file and own.at in self.leg.steps

@@ -9,6 +9,7 @@ from handeye.core.source import Source
 from handeye.core.variation import WorldSpec
 from handeye.program.events import OperatorCalled, to_line
 from handeye.runs.checkpoint_file import decode, encode
+from handeye.runs.folder import RunFolder
 from handeye.runs.runner import Runner
 from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
@@ -48,9 +49,17 @@ def pin_relay(folder: Path, relay: str = RELAY, **texts: str) -> RelayPlan:
     return made(Source(name="pin.relay", text=relay), folder)
 
 
+def start_of(plan: RelayPlan) -> Checkpoint:
+    return Checkpoint(setup=Setup(system="relay", plan=plan, world=WorldSpec(seed=1), camera="ray"))
+
+
 def runner_of(plan: RelayPlan) -> Runner:
-    setup = Setup(system="relay", plan=plan, world=WorldSpec(seed=1), camera="ray")
-    return Runner(Checkpoint(setup=setup))
+    return Runner(start_of(plan))
+
+
+def kept_in(folder: RunFolder, start: Checkpoint, *, again: bool) -> Runner:
+    """A run whose record is kept in a folder; with `again`, it resumes there."""
+    return Runner(start, observers=lambda runner: [folder.watch(runner, start, again=again)])
 
 
 def on_disk(checkpoint: Checkpoint) -> Checkpoint:

@@ -1,17 +1,19 @@
 """A relay: programs that take the arm over from each other."""
 
 import re
+import shutil
 from pathlib import Path
 
 import pytest
 from msgspec.structs import replace
-from relay_bench import CARRY, RELAY, call, on_disk, pin_relay, runner_of, to_end
+from relay_bench import CARRY, RELAY, call, kept_in, on_disk, pin_relay, runner_of, start_of, to_end
 
 from handeye.core.errors import BadFile, InvalidInput
 from handeye.core.resources import plans
 from handeye.core.source import Source, read_source
 from handeye.program.events import StageStarted, UndoEnded, UndoOrdered
 from handeye.runs.checkpoint_file import encode
+from handeye.runs.folder import TRACE, open_again, open_new
 from handeye.runs.hand_over import HandOver
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint
@@ -71,12 +73,33 @@ def test_a_leg_must_not_compare_a_picture_that_no_earlier_leg_takes(tmp_path: Pa
     ]
 
 
+FIRST = 2, 6  # steps that are done when the second and the third leg begin
+
+
 @pytest.fixture(scope="module")
-def run(tmp_path_factory: pytest.TempPathFactory) -> tuple[Runner, list[str], dict[int, Checkpoint]]:
+def record(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder for the record of the run (`whole`), and for copies of it as each later leg begins (`2`, `6`)."""
+    return tmp_path_factory.mktemp("record")
+
+
+@pytest.fixture(scope="module")
+def run(
+    tmp_path_factory: pytest.TempPathFactory, record: Path
+) -> tuple[Runner, list[str], dict[int, Checkpoint]]:
     """The relay, run to its end, with the checkpoints before its steps."""
     kept: dict[int, Checkpoint] = {}
-    runner = runner_of(pin_relay(tmp_path_factory.mktemp("relay")))
-    lines = to_end(runner, lambda now: kept.update({now.position: now.checkpoint()}))
+    start = start_of(pin_relay(tmp_path_factory.mktemp("relay")))
+    folder = open_new(record / "whole", start)
+    runner = kept_in(folder, start, again=False)
+
+    def note(now: Runner) -> None:
+        kept[now.position] = now.checkpoint()
+        if now.position in FIRST:
+            folder.checkpoint(kept[now.position])
+            shutil.copytree(folder.path, record / str(now.position))
+
+    lines = to_end(runner, note)
+    folder.close()
     return runner, lines, kept
 
 
@@ -105,6 +128,21 @@ def test_a_run_killed_in_any_leg_goes_on_byte_for_byte(run: Run) -> None:
         again = Runner(on_disk(kept[position]))
         assert to_end(again) == lines
         assert encode(again.checkpoint()) == end
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("done", FIRST)
+def test_the_trace_of_a_run_killed_as_a_leg_begins_goes_on_byte_for_byte(
+    run: Run, record: Path, done: int
+) -> None:
+    """The brakes that are set between the legs take time, which the trace keeps."""
+    folder, newest, faults = open_again(record / str(done))
+    assert not faults
+    runner = kept_in(folder, newest, again=True)
+    assert runner.position == done
+    to_end(runner)
+    folder.close()
+    assert (folder.path / TRACE).read_bytes() == (record / "whole" / TRACE).read_bytes()
 
 
 def refused(kept: dict[int, Checkpoint], change: "dict[str, object]") -> str:
