@@ -71,8 +71,8 @@ class Trace(recorded.Trace):
             overwrite: replace an existing video.
 
         Raises:
-            InvalidInput: for the same reasons as `frame`; also if the stage does not exist, if nothing was recorded
-                in the stage, if the length or speed is impossible, or if the video cannot be written.
+            InvalidInput: for the same reasons as `frame`; also if one of the given stages does not exist, if nothing
+                was recorded in these stages, if the length or speed is impossible, or if the video cannot be written.
         """
         from handeye.core.arguments import given_file
         from handeye.video.making import make_video
