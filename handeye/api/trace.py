@@ -89,7 +89,7 @@ class Trace(recorded.Trace):
             raise CannotWrite(f"{file} already exists; overwrite=True replaces it") from None
 
     def _repr_html_(self) -> str:
-        """Show the report of the run in an HTML frame, with its size, or the reason why there is no report."""
+        """Show the size of the run's report, and the report in an HTML frame. If there is no report, show the reason."""
         try:
             file = _report(self)
         except InvalidInput as fault:
