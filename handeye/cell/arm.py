@@ -34,7 +34,7 @@ class Watchdog:
     unanswered: float = 0.0  # s since the arm was driven
 
     def answer(self, *, braked: bool) -> None:
-        """Record that the computer has sent a command. A command to set the brakes resets a watchdog that has tripped."""
+        """Record that the computer has sent a command. A command to set the brakes resets a tripped watchdog."""
         self.unanswered = 0.0
         self.tripped = self.tripped and not braked
 

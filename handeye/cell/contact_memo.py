@@ -1,4 +1,4 @@
-"""Stores results that are computed from the contacts of a scene, because the same contacts come back again and again."""
+"""Stores results that are computed from the contacts of a scene, because the same contacts often come back."""
 
 from collections.abc import Callable
 from typing import Final, Generic, TypeVar
