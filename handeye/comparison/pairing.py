@@ -122,7 +122,9 @@ class TwoRuns:
 
     @cached_property
     def numbers(self) -> tuple[Mapping[int, int], Mapping[int, int]]:
-        """For each program, a map from the number of a step to the number of its pair."""
+        """For each program, a map from the number of a step to the number of the step of the other program with which
+        it is paired.
+        """
         a, b = (
             {step: number for number, pair in enumerate(self.pairs) if (step := pair[side]) is not None}
             for side in (0, 1)

@@ -2,7 +2,7 @@
 
 A quantity is one number with a dotted name such as `camera.place.x`; the part of a name before each dot is the name of
 a group (`camera.place`, `camera`). Each quantity is drawn from a separate random stream, made from the seed and the
-quantity's name. Adding a quantity therefore changes no other quantity, and one quantity can be switched off or set
+quantity's name. Adding a quantity therefore changes no other quantity, and the user can switch off or set one quantity
 while the others keep their values.
 """
 
