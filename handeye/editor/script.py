@@ -124,7 +124,7 @@ class EditedScript:
         return from_fs_path(os.path.normpath(self._folder / key)) or ""
 
     def _read(self, key: str) -> str:
-        """Return the text of a required file, from the editor if the file is open there."""
+        """Return the text of a required file. If the file is open in the editor, the text comes from the editor."""
         opened = self._workspace.text_documents.get(self._uri_of(key))
         assert self._folder is not None
         return read_source(self._folder / key).text if opened is None else opened.source
