@@ -18,7 +18,7 @@ from handeye.core.record import Record
 
 
 class TaskCheck(Record, frozen=True, kw_only=True):
-    """The verdicts on the two solutions that a task has, in its public worlds."""
+    """The verdicts on the two solutions of a task in the public worlds of the task."""
 
     task: str
     worlds: int

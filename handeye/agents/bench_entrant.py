@@ -36,7 +36,7 @@ class Effort:
 
 
 def solved(task: BenchTask, entrant: Entrant, folder: Path, call: Call) -> Effort:
-    """Let an entrant solve a task in a new folder. The entrant leaves its solution there.
+    """Let an entrant solve a task in a new folder. The entrant leaves its solution in this folder.
 
     After each round except the last, the solution is judged in the public worlds of the task; the entrant finds the
     feedback in FEEDBACK. If the solution is accepted in all public worlds, the rounds end early. Raises InvalidInput

@@ -11,8 +11,8 @@ FEEDBACK: Final = "feedback.md"  # file that the entrant finds after its first r
 
 
 def feedback(found: Sequence[Verdict], kind: Feedback) -> str:
-    """Write the feedback on a solution. `verdict` gives only verdicts; the other kinds add the errors and the
-    referee's measurements, and `trace` also adds what the last steps did.
+    """Write the feedback on a solution. Feedback of the kind `verdict` gives only the verdicts. The other kinds add
+    the errors and the referee's measurements. The kind `trace` also adds what the last steps did.
     """
     lines = ["# Your solution in the public worlds", ""]
     for each in found:
@@ -25,8 +25,8 @@ def feedback(found: Sequence[Verdict], kind: Feedback) -> str:
 
 
 def _traces(found: Sequence[Verdict]) -> Iterator[str]:
-    """Yield the last steps in the worlds that are not accepted. If several worlds have no steps for the same reason,
-    one section covers all of them.
+    """Yield the last steps in the worlds in which the solution was not accepted. If the program made no step in
+    several worlds, and for the same reason in all of them, one section covers these worlds.
     """
     wrong = (each for each in found if each.outcome != "accepted" and each.listed)
     for (_, why), worlds in groupby(wrong, lambda each: (each.seed if each.steps else None, each.message)):

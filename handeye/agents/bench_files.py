@@ -1,5 +1,5 @@
-"""The files of a task of the agents' bench. A file is in the folder of the task, or is derived from another file by
-changes.
+"""The files of a task of the agents' bench. A file is in the folder of the task, or is made from another file by
+replacing pieces of that file's text.
 """
 
 from collections.abc import Callable, Mapping
@@ -50,7 +50,9 @@ class TaskFiles:
         return own | made
 
     def text(self, name: str, without: frozenset[str] = frozenset()) -> str:
-        """Return the text of the file `FOLDER/NAME`. `without` names the files that are derived from this file."""
+        """Return the text of the file `FOLDER/NAME`. `without` names the files for which this file is being read,
+        because they are derived from it.
+        """
         place = f"{self.folder.name}/{name}"
         if name not in self.derived:
             return read_source(self.folder / name).text

@@ -56,7 +56,9 @@ def _sections(result: BenchResult) -> Iterator[Markup]:
 
 
 def _verdicts(score: TaskScore) -> Iterator[list[Markup]]:
-    """Yield a row for each verdict on a task, with the number of worlds; silent failures come first."""
+    """Yield a row for each verdict on a task, with the number of worlds that have this verdict. Silent failures come
+    first.
+    """
     found = Counter((each.outcome, each.told) for each in score.verdicts)
     lines = sorted(found.items(), key=lambda line: (_ORDER.index(line[0][0]), -line[1]))
     for number, ((outcome, told), worlds) in enumerate(lines):

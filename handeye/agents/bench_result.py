@@ -77,8 +77,8 @@ def scored(
 
 
 def to_json(result: BenchResult) -> bytes:
-    """Encode the result as one JSON object. Hidden seeds are left out. Instead, each verdict gets the number of its
-    seed in the file of hidden seeds, counted from 0.
+    """Encode the result as one JSON object. Hidden seeds are left out. Instead of its seed, each verdict gets the
+    position of the seed in the file of hidden seeds, counted from 0.
     """
     told = msgspec.to_builtins(result) | {"score": result.score}
     if result.seeds == "hidden":

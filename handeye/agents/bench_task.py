@@ -50,7 +50,7 @@ class Worlds(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class Case(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """What a program finds in a world, and what is right there."""
+    """What a program finds in a world, and what a right program does in that world."""
 
     worlds: Worlds = Worlds()
     right: Right = Right()
@@ -119,7 +119,7 @@ class BenchTask(msgspec.Struct, frozen=True, kw_only=True, dict=True):
 
     @cached_property
     def cases(self) -> tuple[Case, ...]:
-        """The cases of the task: one for each variant, or only one."""
+        """The cases of the task: one for each variant of the task, or a single case if the task has no variants."""
         usual: dict[str, Any] = {
             name: msgspec.to_builtins(getattr(self.file, name)) for name in Case.__struct_fields__
         }
@@ -211,7 +211,7 @@ class BenchTask(msgspec.Struct, frozen=True, kw_only=True, dict=True):
 
 
 def _replaced(text: str, lines: Mapping[str, str]) -> str:
-    """Return a program with other lines. The lines that are replaced are among those that a solution must keep."""
+    """Return a program in which some lines are replaced. Each replaced line is one that a solution must keep."""
     return "\n".join(lines.get(line, line) for line in text.splitlines()) + "\n"
 
 

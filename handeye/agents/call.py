@@ -24,8 +24,8 @@ class Call:
     _polls: int = 0
 
     def halted(self) -> bool:
-        """Return True if the call was cancelled. A run calls this method in every servo period, so the method also
-        reports progress, about once in a simulated second.
+        """Return True if the call was cancelled. A run calls this method in every servo period. The method therefore
+        also reports progress, about once in a simulated second.
         """
         self._polls += 1
         if self._polls % EVERY == 0:

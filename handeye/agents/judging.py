@@ -121,8 +121,8 @@ def _stopped(outcome: Outcome, message: str, wanted: str) -> tuple[Outcome, str]
 
 
 def _to_end(runner: Runner, call: Call) -> tuple[Pause, str]:
-    """Execute a program to its end, or to the limits. Returns the pause, and a sentence, which is empty unless the
-    program has reached a limit.
+    """Execute a program to its end, or to the limits. Returns the pause in which the run now is, and a sentence that
+    says which limit the program has reached. The sentence is empty if the program has reached its end.
     """
     while True:
         pause = advance(runner, steps=AT_ONCE)

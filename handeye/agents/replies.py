@@ -75,7 +75,7 @@ def on_plan(plan: Plan, stage: int | None) -> Reply:
 
 
 def on_world(task: str, quantities: Sequence[QuantityReport]) -> Reply:
-    """Reply with how each quantity varies between worlds, and never with its value in one world."""
+    """Reply with the way in which each quantity varies between worlds. The reply never gives the value in one world."""
     rows = [
         {
             "name": each.name,
@@ -92,7 +92,7 @@ def on_world(task: str, quantities: Sequence[QuantityReport]) -> Reply:
 
 
 def on_run(name: str, run: Run, answer: Answer) -> Reply:
-    """Reply with where a run is now, and with what it did."""
+    """Reply with the present place of a run, and with what the run did."""
     state = run.state
     data: dict[str, Any] = msgspec.json.decode(as_json(answer))
     for key in ("events", "command", "source", "error", "said", "pause"):

@@ -1,4 +1,4 @@
-"""Reads the scripts and taught positions of an agent, from its calls and from its folder only, and plans them."""
+"""Plans the scripts of an agent. Scripts and taught positions come only from the agent's calls and folder."""
 
 import posixpath
 from dataclasses import dataclass

@@ -52,8 +52,8 @@ async def _serve(toolbox: Toolbox) -> None:
 
 
 class _Lines:
-    """The lines of standard input. A server that waits for a line can be interrupted at once; a server that reads a
-    file could not.
+    """The lines of standard input. While a server waits for one of these lines, it can be interrupted at once. A
+    server that reads standard input as a file could not be interrupted while it waits.
     """
 
     def __aiter__(self) -> Self:

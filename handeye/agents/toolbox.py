@@ -171,8 +171,8 @@ class Toolbox:
 
 
 def _done(answer: Answer) -> Answer:
-    """Return the answer of the stepper. If the stepper refused the command, raises Refused with the stepper's
-    sentence.
+    """Return the answer of the stepper. If the stepper refused the command, raises Refused with the sentence in which
+    the stepper gives the reason.
     """
     if answer.error is not None:
         raise Refused(answer.error)

@@ -24,8 +24,8 @@ LANGUAGE: Final = "wave"  # name of the language in programs and plans: that of 
 
 
 def check_form(source: Source) -> list[Diagnostic]:
-    """Find the syntax errors of a text alone. Required texts are read only for the names of their macros; their
-    errors are not reported.
+    """Find the syntax errors of one text. The texts that it requires are read only for the names of their macros. The
+    errors of these texts are not reported.
     """
     found = parse_whole(source)[1]
     lost = ("unknown-instruction",) if any(d.code in MISSING for d in found) else ()
@@ -37,9 +37,9 @@ def compile_text(source: Source, taught: Taught) -> tuple[Program | None, list[D
     """Compile a text. Returns two values: the program, which is None if one of the diagnostics is an error, and the
     diagnostics.
 
-    The required texts are in `source.required` (see `includes.sewn`). Spans are offsets in the combined text. The
-    program contains the taught positions and parts, and the positions and parts that the text adds. There are at most
-    `LIMIT` diagnostics, sorted by position.
+    The required texts are in `source.required` (see `includes.sewn`). Spans are offsets in the text that `sewn` makes
+    of the script and the required texts. The program contains the taught positions and parts, and the positions and
+    parts that the text adds. There are at most `LIMIT` diagnostics, sorted by position.
     """
     script, found = parse_whole(source)
     if any(d.code in MISSING for d in found):

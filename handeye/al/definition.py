@@ -89,7 +89,7 @@ class Operand(Record, frozen=True, kw_only=True):
 
     @property
     def plain(self) -> str:
-        """What a sentence calls the operand."""
+        """The name of the operand in the sentences of messages."""
         return f"vector {self.name}" if self.is_vector else self.name or f"word `{self.word}`"
 
     @property
@@ -198,7 +198,7 @@ def named_vector(unit: OperandUnit) -> Operand:
 
 
 def name_of(name: str, refers: Refers) -> Operand:
-    """Define an operand that is a name of one kind."""
+    """Define an operand that is the name of an object. `refers` is the kind of object."""
     return Operand(name=name, takes=(Name,), refers=refers)
 
 

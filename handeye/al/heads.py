@@ -27,7 +27,7 @@ class MacroHead(msgspec.Struct, frozen=True, gc=False):
 
     @property
     def usage(self) -> Instruction | None:
-        """The macro as an instruction; None if its parameters are not distinct, free names."""
+        """The macro as an instruction; None if two of its parameters are the same, or if one cannot be a parameter."""
         free = (t.text for t in self.parameters if t.kind is NAME and taken(t.text) is None)
         names = dict.fromkeys(free)
         return as_instruction(self.word, [*names]) if len(names) == len(self.parameters) else None

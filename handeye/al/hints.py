@@ -75,8 +75,8 @@ def letters_for_digits(text: str) -> str | None:
 
 
 def with_unit(text: str) -> tuple[str, str] | None:
-    """Find a unit written directly after its number. Returns the unit and the hint for it, or None if the text has
-    another form.
+    """Find a unit written directly after its number. Returns the unit and a hint. Returns None if the text is not a
+    number with a unit.
     """
     found = _WITH_UNIT.fullmatch(text)
     said = None if found is None else no_units(found[2])

@@ -34,7 +34,7 @@ def read_script(path: str | Path) -> Source:
 
 
 def sewn(source: Source, read: Read) -> Source:
-    """Join a text with all readable texts that it requires, up to the limits."""
+    """Join a text with the readable texts that it requires, up to the limits `MAX_FILES` and `LARGEST`."""
     folder, own = PurePath(source.name).parent, own_key(source)
     required: dict[str, Source] = {}
     waiting = [(own, source.text)]
@@ -128,7 +128,9 @@ class Requirements:
         self.reading = [own_key(self.source)]
 
     def find(self, file: Text) -> Source | Diagnostic | None:
-        """Return the text to read next, or a diagnostic. Returns None if the limit has already been reported."""
+        """Return the text to read next, or a diagnostic. Returns None if there are too many required texts, and a
+        diagnostic has already said so.
+        """
         key = key_of(file.text, self.reading[-1])
         found = self.texts.get(key)
         if key.lower().endswith(".toml"):

@@ -356,7 +356,7 @@ class _Lowerer:
 
 
 def _shared(one: Call, other: Call) -> int:
-    """Return the number of outermost calls that two paths of calls have in common."""
+    """Return how many calls, counted from the outermost, are the same in two paths of nested calls."""
     for depth, (a, b) in enumerate(zip(one, other, strict=False)):
         if a != b:
             return depth

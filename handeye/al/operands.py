@@ -59,7 +59,7 @@ def separated(tokens: Sequence[Token]) -> Sequence[Token]:
 
 
 def _meant(tokens: Sequence[Token]) -> Mistake | None:
-    """Return the cause of a mistake in these operands, if brackets, units or commas show it."""
+    """Return the mistake if brackets, units or commas in these operands show what is wrong, or else None."""
     opened = False
     for token in tokens:
         if token.text == "]" and not opened:

@@ -68,7 +68,7 @@ class FilledLine:
 
     @property
     def calls(self) -> tuple[Statement, ...]:
-        """The calls in whose text the arguments are written."""
+        """The macro calls from which the arguments of this line come."""
         return tuple(dict.fromkeys(given.by for given in self.given.values()))
 
     def at_source(self, values: Sequence[Value | None]) -> tuple[Value | None, ...]:

@@ -32,7 +32,9 @@ _CONSOLE_WORDS: Final = ("DO", "GO")  # console commands that execute an instruc
 
 
 def parse(text: str) -> tuple[Script, list[Diagnostic]]:
-    """Parse a text alone. Returns its syntax tree and its syntax errors. Stops after `LIMIT` errors."""
+    """Parse a text without the texts that it requires. Returns the syntax tree and the syntax errors. Stops after
+    `LIMIT` errors.
+    """
     return _parsed(Source(name="", text=text), None)
 
 

@@ -1,5 +1,5 @@
-"""Makes diagnostics from the findings of the planner, in the units of the language, each at its place in the
-script.
+"""Makes diagnostics from the findings of the planner. Each diagnostic uses the units of the language, and points to a
+place in the script.
 """
 
 import math
@@ -46,8 +46,8 @@ _EIGHTHS: Final = 8
 def planning_diagnostics(
     program: Program, arm: NamedArm, findings: Iterable[PlanFinding]
 ) -> list[Diagnostic]:
-    """Make diagnostics from the findings of the planner, sorted by position. Spans are offsets in the combined
-    text.
+    """Make diagnostics from the findings of the planner, sorted by position. Spans are offsets in the text of the
+    script together with its required texts.
     """
     phrases = _Phrases(program, arm)
     return arranged(_PHRASES[type(finding)](phrases, finding) for finding in findings)
@@ -230,8 +230,8 @@ class _Phrases:
         return self.find(step, step.word) or self.span(step)
 
     def name_span(self, number: int, name: str) -> Span:
-        """Return the span of the name of a position in a statement or its modifiers. If the name is in neither,
-        return the span of the statement's word.
+        """Return the span of the name of a position in a statement or its modifiers. If neither the statement nor its
+        modifiers contain the name, return the span of the statement's word.
         """
         step = self.program.steps[number]
         places: tuple[Step | SourcePlace, ...] = (*step.modifiers, step)

@@ -20,7 +20,7 @@ NAME, NUMBER, STRING, MARK, JUNK = TokenKind  # members by name: looking one up 
 
 
 class Token(Located, frozen=True, gc=False):
-    """A token. The offsets of a token are in the combined text."""
+    """A token. Its offsets are in the text of the script together with its required texts."""
 
     kind: TokenKind
     text: str

@@ -67,13 +67,15 @@ def begin(
             plate: an array of shape (256, 333), in which 1 is a white surface in full light.
         search: a function that gives the places of a search, instead of the square spiral of `SEARCH`. The function
             takes the number of a place, counted from 0, and returns the x and y of that place in table coordinates, as
-            multiples of the search step. The function is called once for each number. A resumed run calls it again,
-            and it must then return the same values. The search ends with error 6 when the function returns None or
-            raises StopIteration, or after the number of places that the `SEARCH` allows (49 by default). A search
-            `ALONG` a line does not use the function. Each try is an event `SearchAdvanced`, and
-            `run.state.memory.place` is the number of the current place.
+            multiples of the search step. The function is called once for each number. A resumed run calls the function
+            again. For each number, the function must then return the same place as before. The search ends with error
+            6 when the function returns None or raises StopIteration, or after the number of places that the `SEARCH`
+            allows (49 by default). A search `ALONG` a line does not use the function. When the search goes on to
+            another place, the run records an event `SearchAdvanced`. `run.state.memory.place` is the number of the
+            current place.
         vision: functions in place of handeye's own vision, by instruction, such as `{"SPECIFIC": my_function}`.
-            Pictures are arrays of shape (256, 333), from 0 to 15. `view` is the calibrated camera, in the position in
+            Pictures are arrays of shape (256, 333) with values from 0 to 15. `view` is the calibrated camera, in the
+            position in
             which it took the picture: `view.project(points)` and `view.back_project(uv, z)` convert between points in
             W (m) and picture points. `part` is the drawing of the part: its planned place `at`, the height of its
             `face`, and its `holes`.
@@ -93,17 +95,17 @@ def begin(
             resume a run in the same folder, give the folder here as well as in `script`.
         overwrite: replace a run that is already in the folder `out`.
         halt: the panic button, a function that handeye calls in every servo period and after every step. When it
-            returns True, the brakes are set and the run pauses; the interrupted step is undone. If the cell is still
-            being prepared, the run does not begin.
+            returns True, the brakes are set and the run pauses; the interrupted step is undone. If the function
+            returns True while the cell is still being prepared, the run does not begin.
 
     Limits given as `referee` are saved with the run. Python code (`search`, `camera`, `vision`, `referee`) cannot be
     saved; checkpoints, trace and result hold only the name of the function or class. `handeye resume` and `handeye
-    trace verify` refuse such a run; `handeye.begin` resumes the run if you give code with the same name.
+    trace verify` refuse a run with such code. `handeye.begin` resumes the run if you give code with the same name.
 
     Raises:
         ScriptError: the script has errors.
-        InvalidInput: an argument cannot be used, or the run stopped before it reached the stage `at`; or `halt`
-            returned True while the cell was being prepared.
+        InvalidInput: an argument cannot be used, the run stopped before it reached the stage `at`, or `halt` returned
+            True while the cell was being prepared.
 
     >>> run = handeye.begin("OPEN 1\\nOPEN 2\\n", seed=3, camera="ray")
     >>> run
@@ -233,7 +235,7 @@ class _PauseOnRequest(Observer):
 
 def _built(start: Start, parts: Parts, keeping: RunEnding, halt: Callable[[], bool] | None) -> Run:
     """Build the run, ready for its first step. If the cell cannot be built, delete the folder that was created for
-    the run. Raises Refused if `halt` returned True meanwhile.
+    the run. Raises Refused if `halt` returned True while the cell was being built.
     """
     folder, state = keeping.folder, start.state
 

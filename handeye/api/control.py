@@ -21,8 +21,8 @@ HOUR: Final = 3600.0  # s; a controller commands the arm for at most this time a
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Command:
-    """What a controller commands for one servo period. If `torque` is None, the brakes are set. Any other device whose
-    command is None keeps its last command.
+    """What a controller commands for one servo period. If `torque` is None, the brakes are set. If the command of
+    another device is None, the device keeps its last command.
 
     >>> handeye.Command(torque=[0.0] * 6, gap=0.02).gap
     0.02
@@ -45,8 +45,8 @@ returns None, the control ends.
 
 
 def take_control(runner: Runner, controller: Controller, seconds: float) -> str:
-    """Let a controller command the arm for at most `seconds` of simulated time. Returns why the control ended, in
-    words. If the controller or the simulation fails, the run returns to its state before the control.
+    """Let a controller command the arm for at most `seconds` of simulated time. Returns the reason why the control
+    ended, as a text. If the controller or the simulation fails, the run returns to its state before the control.
 
     Raises:
         InvalidInput: the run cannot be controlled now, an argument cannot be used, or the controller returned

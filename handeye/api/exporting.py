@@ -12,7 +12,9 @@ if TYPE_CHECKING:
 
 
 def exported(given: object, shown: Callable[[], ExportedState], part: object, *, overwrite: bool) -> "Export":
-    """Write an export; `shown` returns the state to export, and the other arguments are those of `Run.export`."""
+    """Write an export. `shown` is a function that returns the state to export. The other arguments are those of
+    `Run.export`.
+    """
     from handeye.results.export import export  # with libraries that take a while to load
 
     path = given_file(

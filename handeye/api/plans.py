@@ -29,8 +29,8 @@ from handeye.runs.scripts import plan_script, plan_text, program_named
 
 @dataclass(frozen=True, kw_only=True)
 class FlowDrawing:
-    """A drawing of a plan: its steps, and arrows from each step to those that come next, in sequence or after an error.
-    Notebooks show the drawing.
+    """A drawing of a plan: its steps, and arrows from each step to the steps that can follow it, normally or after an
+    error. Notebooks show the drawing.
     """
 
     svg: str  # the drawing, as `handeye inspect --graph svg` writes it

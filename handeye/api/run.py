@@ -118,8 +118,8 @@ class Run:
         return self._go(stops)
 
     def back(self, steps: Place = 1) -> State:
-        """Restore the run (arm, parts, program and clock) to its state before the last steps. The events of these
-        steps are dropped.
+        """Restore the run (arm, parts, program and clock) to its state before the last `steps` steps. The events of
+        these steps are dropped.
 
         Args:
             steps: how many steps to go back; or a stage (its name or a part of the name), to go back to the latest
@@ -177,8 +177,8 @@ class Run:
         return self._stand(reason(self._session.have_undone(left)))
 
     def dismantle(self) -> State:
-        """Make the arm undo all its work and end the run. `result.apart` then gives the referee's verdict on the
-        undone work.
+        """Make the arm undo all its work. The run then ends, and `result.apart` gives the referee's verdict on the
+        dismantling.
 
         Raises:
             InvalidInput: there is nothing to undo.
@@ -267,9 +267,9 @@ class Run:
         The controller knows the cell only through the sensors. The controller receives the readings at the end of a
         servo period: `time` (s), `q` and `qd` (joint positions and rates, shape (n,), rad and m), `gap` (m), `touch`
         (the two switches of the fingers), `tool_torque` (of the screwdriver, N m), and `braked`. The controller
-        returns a `handeye.Command` for the next period, or None to end its control. At the end, the brakes are set for
-        .1 s, and the arm comes to rest. Fingers and screwdriver keep their last commands. `run.arm` gives the model of
-        the arm, for `handeye.arm`.
+        returns a `handeye.Command` for the next period, or None to end its control. When the control ends, the brakes
+        are set for .1 s, and the arm comes to rest. Fingers and screwdriver keep their last commands. `run.arm` gives
+        the model of the arm, for `handeye.arm`.
 
         The commands are recorded as an event of the run, so `handeye trace verify` and `back` repeat them. Afterwards,
         the arm cannot undo the steps that it executed before the control.
@@ -377,7 +377,7 @@ class Run:
 
     @property
     def completed(self) -> bool:
-        """True if the program ended, or if the arm finished the requested undo."""
+        """True if the program ended, or if the arm has undone all the steps that it was asked to undo."""
         return self.result.completed
 
     @property

@@ -48,7 +48,7 @@ class RunRequest:
     @property
     def spec(self) -> WorldSpec | None:
         """The requested world; None if neither a seed nor a world was given. Raises InvalidInput if the world is
-        invalid, or if both were given.
+        invalid, or if both a seed and a world were given.
         """
         if self.world is None:
             return None if self.seed is None else WorldSpec(seed=checked_seed(self.seed))
@@ -155,8 +155,8 @@ def _check_same(path: Path, begun: Setup, wanted: RunRequest) -> None:
 
 
 def _with_parts(start: Checkpoint, wanted: RunRequest) -> Checkpoint:
-    """Return the checkpoint with the caller's search pattern, camera and referee in place of its own. The setup and
-    the first event of the returned checkpoint name these parts.
+    """Return the checkpoint with the caller's search pattern, camera and referee in place of those that were saved.
+    The setup and the first event of the returned checkpoint name these parts.
     """
     if not wanted.replaced and not wanted.judged and wanted.limits is None:
         return start

@@ -71,8 +71,8 @@ class Trace(recorded.Trace):
             overwrite: replace an existing video.
 
         Raises:
-            InvalidInput: for the same reasons as `frame`; also if the stage does not exist, if nothing was recorded
-                in the stage, if the length or speed is impossible, or if the video cannot be written.
+            InvalidInput: for the same reasons as `frame`; also if one of the given stages does not exist, if nothing
+                was recorded in these stages, if the length or speed is impossible, or if the video cannot be written.
         """
         from handeye.core.arguments import given_file
         from handeye.video.making import make_video
@@ -89,7 +89,7 @@ class Trace(recorded.Trace):
             raise CannotWrite(f"{file} already exists; overwrite=True replaces it") from None
 
     def _repr_html_(self) -> str:
-        """Show the report of the run in an HTML frame, with its size, or the reason why there is no report."""
+        """Show the run's report in an HTML frame, with its size in MB. If there is no report, show the reason."""
         try:
             file = _report(self)
         except InvalidInput as fault:

@@ -160,7 +160,7 @@ class World:
         return page(heading(repr(self)), table(("quantity", "value", "unit", ""), rows))
 
     def _quantity(self, name: str) -> str:
-        """Return the name of a quantity. Raises InvalidInput if there is no such quantity."""
+        """Return the name if it is the name of a quantity. Raises InvalidInput if there is no such quantity."""
         if not isinstance(name, str):
             raise BadArgument(f"give a quantity by its name, not by {name!r}")
         found = self._table.select(name, self.spec.overrides.set)

@@ -1,8 +1,8 @@
-"""The interface for the kinematics and dynamics that the servo computes in every period. Any numerical library can
-implement it.
+"""The interface for the kinematics and dynamics that the servo computes in every period. The interface can be
+implemented with any numerical library.
 
-Planning, and everything computed for a whole motion at once, uses the formulas of `arm.kinematics` and
-`arm.dynamics` directly.
+The planner uses the formulas of `arm.kinematics` and `arm.dynamics` directly. So does all code that computes a whole
+motion at once.
 """
 
 from abc import ABC, abstractmethod

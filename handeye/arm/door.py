@@ -36,8 +36,8 @@ def inverse(X_WT: ArrayLike, near: ArrayLike | None = None, arm: ArmModel | None
     Of several solutions, the result is the one that the joints reach soonest from the positions `near`, shape (n,). By
     default, `near` is the middle of the joints' ranges.
 
-    Returns: a record with the joint positions `q`, shape (n,). If no joint positions bring the hand there, `q` is
-        None, and `message(arm)` gives the reason as a sentence.
+    Returns: a record with the joint positions `q`, shape (n,). If no joint positions bring the hand to the pose, `q`
+    is None, and `message(arm)` gives the reason as a sentence.
 
     Raises:
         BadArgument: `X_WT` is not a pose, or `near` has the wrong number of joints.

@@ -6,10 +6,11 @@ to its Coulomb friction f_i, and a sliding joint takes up all of f_i. The estima
 as the wrench J^-T tau (statics, by virtual work: Paul 1981). The box of torques |tau_i| <= f_i is thus sensed as a
 polytope of wrenches. Along a unit vector u the polytope extends to the sum over the joints of |u J^-T_i f_i|.
 
-An arm that has measured its friction compensates the measured part, and senses the rest, `unknown_friction`, during
-the whole motion. In addition, the steps of the converters are sensed as a force in each servo period. The output
-torque is rounded by up to half a step. The rate gained in a period is read in steps. One step multiplied by the
-inertia appears as a torque. The errors of both roundings are uniformly distributed, with the variance step^2 / 12.
+An arm that has measured its friction compensates the measured part. The arm senses the rest of the friction,
+`unknown_friction`, as a force during the whole motion. In addition, the steps of the converters are sensed as a force
+in each servo period. The output torque is rounded by up to half a step. The rate gained in a period is read in steps.
+One step multiplied by the inertia appears as a torque. The errors of both roundings are uniformly distributed, with
+the variance step^2 / 12.
 
 Measured on 120 straight motions in free air, in three worlds with twice the usual errors: the mean force over a motion
 was at most 1.02 times the force computed from unknown friction. The scatter of single servo periods was 1.05 times
@@ -60,8 +61,8 @@ def felt_in_air(arm: ArmModel, q: Array, friction: Array, exerted: HandLoad) -> 
 
 
 def faint(arm: ArmModel, q: Array, friction: Array, exerted: HandLoad) -> float | None:
-    """Return the greatest force (N) or moment (N m) sensed in free air, or None if it does not exceed `exerted`. If it
-    exceeds `exerted`, a guard at `exerted` may trip without contact.
+    """Return the greatest force (N) or moment (N m) sensed in free air, or None if this value does not exceed
+    `exerted`. If the value exceeds `exerted`, a guard at `exerted` may trip without contact.
     """
     most = felt_in_air(arm, q, friction, exerted)
     return most if float(np.linalg.norm(np.array(exerted.vector))) < most else None

@@ -144,7 +144,7 @@ class _SensorPair:
 
     def step(self, q: float, qd: float) -> float:
         """Compare the readings of the next servo period. Returns the difference between the sensors as a multiple of
-        what is tolerable.
+        the tolerated difference.
         """
         gone, gain = (self.rate + qd) * self.half, qd - self.rate
         self.way += gone

@@ -64,8 +64,8 @@ class Stiffness:
 
 
 def stiff(arm: ArmModel, taken: Sequence[Exertion], friction: Array) -> Stiffness | None:
-    """Find the joint that resists a motion with much more than its measured `friction`, shape (n,). Returns None if
-    there is no such joint.
+    """Find the joint whose resistance to a motion is much greater than its measured `friction`, shape (n,). Returns
+    None if there is no such joint.
 
     Torques are averaged over each direction of sliding of each joint, in arrays of shape (2, n).
     """
@@ -95,8 +95,8 @@ def stiff(arm: ArmModel, taken: Sequence[Exertion], friction: Array) -> Stiffnes
 
 
 def alone(arm: ArmModel, J: Array, spare: Array) -> int | None:
-    """Find the joint that alone takes the torques `spare`, shape (n,). Returns None if a force on the hand explains
-    the torques (see the module).
+    """Find the single joint that explains the remaining torques `spare`, shape (n,). Returns None if a force on the
+    hand explains the torques (see the module).
     """
     wrench = external_wrench(J, spare)
     if float(np.linalg.norm(wrench[3:])) <= AT_HAND * float(np.linalg.norm(wrench[:3])):

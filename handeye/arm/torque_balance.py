@@ -1,14 +1,14 @@
 """Detects a drive that does not give its commanded torque. The evidence is the torques that carry the weight of the
 arm in successive motions.
 
-In a motion through free air from rest to rest, the mean torque of a joint is its weight torque plus the measured
-friction. The remainder is due to errors of masses, mass centres and drives. These errors are constant, so each motion
-refines their estimate, until a motion at a new posture leaves almost no remainder. The method is recursive least
-squares with a prior (Gauss); the prior is the uncertainty after the arm has weighed itself, computed for errors of
-twice their stated size. If a remainder appears after that, a drive has changed. Measured in three worlds, one of them
-at the high level: over the table, joint 2 of the Stanford arm has a weight torque of 18 N m, and the estimate of this
-torque is right to within .27 N m. Joint 3 carries a weight of 5 to 20 N, and the estimate of this weight is right to
-within .6 N. A joint that carries no weight gives no information.
+In a motion through free air from rest to rest, the mean torque of a joint should be its weight torque plus the
+measured friction. Any remaining torque is due to errors of masses, mass centres and drives. These errors are constant,
+so each motion refines their estimate, until almost no torque remains unexplained in a motion at a new posture. The
+method is recursive least squares with a prior (Gauss); the prior is the uncertainty after the arm has weighed itself,
+computed for errors of twice their stated size. If a torque remains unexplained in a later motion, a drive has changed.
+Measured in three worlds, one of them with errors of the level `high`: over the table, joint 2 of the Stanford arm has
+a weight torque of 18 N m, and the estimate of this torque is right to within .27 N m. Joint 3 carries a weight of 5 to
+20 N, and the estimate of this weight is right to within .6 N. A joint that carries no weight gives no information.
 """
 
 from collections.abc import Sequence
@@ -54,8 +54,8 @@ class Unbalanced:
 def balanced(
     arm: ArmModel, taken: Sequence[Exertion], friction: Array, belief: Array | None, borne: Array
 ) -> tuple[Array, Unbalanced | None]:
-    """Compare the torques of a motion with the estimate made before the motion. Returns two values: the new estimate;
-    and the joints that do not balance, or None if all joints balance.
+    """Compare the torques of a motion with the estimate made before the motion. Returns two values. The first is the
+    new estimate. The second is the joints that do not balance, or None if all joints balance.
 
     `arm` is the model with the weighed masses, and `friction` the measured friction. `belief` is the estimate, or
     None if the arm has only been weighed at its first posture. `borne` are the torques that carry a declared load.

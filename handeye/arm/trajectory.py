@@ -78,8 +78,8 @@ def move(
 
     The motion passes through the configurations in `via` without stopping. `departure` and `approach` are the heights
     (m) of the lift-off point above the start and of the set-down point above the goal; a height of 0 leaves the point
-    out. A point out of reach is lowered by quarters of its height. `speed` is a fraction of the joints' rate limits;
-    accelerations are scaled by its square.
+    out. If a point is out of reach, it is lowered in steps of a quarter of its height. `speed` is a fraction of the
+    joints' rate limits; accelerations are scaled by its square.
     """
     height = float(X_WT_goal[2, 3])
     if height < -SLACK:

@@ -34,13 +34,13 @@ class Watchdog:
     unanswered: float = 0.0  # s since the arm was driven
 
     def answer(self, *, braked: bool) -> None:
-        """Note that the computer has sent a command. A command to set the brakes acknowledges a trip."""
+        """Record that the computer has sent a command. A command to set the brakes resets a tripped watchdog."""
         self.unanswered = 0.0
         self.tripped = self.tripped and not braked
 
     def wait(self, seconds: float) -> None:
-        """Count `seconds` that are about to pass while the drives hold the last command. The watchdog trips if the
-        count exceeds a servo period.
+        """Count the next `seconds`, in which the drives hold the last command. The watchdog trips if the counted time
+        exceeds a servo period.
         """
         self.unanswered += seconds
         self.tripped = self.tripped or self.unanswered > self.period * (1 + _LATE)
@@ -108,8 +108,8 @@ class SimulatedArm(Mechanism[ArmState], ArmPort):
         noise: np.random.Generator,
         lines: SignalLines = SOUND,
     ) -> None:
-        """Make an arm with its brakes set at a posture, shape (n,), in rad or m. `noise` generates the noise of the
-        arm's sensors.
+        """Make an arm at a given posture, shape (n,), in rad or m. Its brakes are set. `noise` generates the noise of
+        the arm's sensors.
 
         The lines of an arm are `potentiometer.N`, `tachometer.N`, `drive.N`, `brake.N` and `friction.N` for joint
         N. The lines `force.x`, `force.y` and `force.z` offset the drives by the torques of a force at the hand (N,

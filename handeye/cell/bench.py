@@ -163,8 +163,8 @@ class Bench(Clock, Mechanism[BenchTime]):
         )
 
     def _pass(self, most: int) -> None:
-        """Let physics steps pass; `most` is the greatest number of steps. If everything sleeps, let all these steps
-        pass at once; if not, let one stretch of steps pass.
+        """Let physics steps pass, at most `most` of them. If all bodies sleep, let all these steps pass at once. If
+        not, let only `_stretch` steps pass.
         """
         steps = min(most, self._stretch)
         for part in self._parts:

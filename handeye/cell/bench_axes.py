@@ -22,7 +22,7 @@ Sense = Callable[[mujoco.MjModel, mujoco.MjData], Sequence[float] | Array]
 
 
 def sensor(name: str) -> Sense:
-    """Make the function that reads the scene's sensor `name`, for a sensor channel with its values."""
+    """Make the function that reads the scene's sensor `name`. A sensor channel uses this function to get its values."""
     return lambda _, data: np.asarray(data.sensor(name).data)
 
 

@@ -199,8 +199,8 @@ def true_camera(errors: CameraErrors, drawing: CameraModel) -> CameraModel:
 
 
 def renderer_here(kind: str) -> Literal["gl", "ray"]:
-    """Return the renderer, `gl` or `ray`, that `kind` means on this computer. Raises InvalidInput if no such renderer
-    works here.
+    """Return the renderer, `gl` or `ray`, that is used on this computer if the user asks for `kind`. Raises
+    InvalidInput if no such renderer works on this computer.
     """
     made = make_renderer(kind, mujoco.MjModel.from_xml_string("<mujoco/>"))
     return "gl" if made.identity.method == "opengl" else "ray"

@@ -1,10 +1,10 @@
-"""Carriers of tapped holes: bodies in the base that represent the screws that are engaged in the threads of the base.
+"""Carriers of tapped holes. A carrier is a body in the base that represents a screw engaged in a thread of the base.
 
 A carrier slides along its axis and turns about it; the pitch couples the two motions. The axis is the axis of the
-tapped hole, unless a screw entered at an angle. The carrier of such a screw takes the axis of the screw, so that
-nothing jumps. The thread then draws the screw straight as it is turned; a cross-threaded screw stays at its angle. The
-head and shank of a carrier touch other parts only while a screw is in its hole, and the shank touches only the bores
-of gasket and top.
+tapped hole, unless a screw entered at an angle. The carrier of such a screw takes the axis of the screw, so that the
+screw does not jump when the carrier replaces it. The thread then draws the screw straight as it is turned; a
+cross-threaded screw stays at its angle. The head and shank of a carrier touch other parts only while a screw is in its
+hole, and the shank touches only the bores of gasket and top.
 """
 
 from math import exp, pi

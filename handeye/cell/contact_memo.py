@@ -1,4 +1,4 @@
-"""Remembers what follows from the contacts of a scene, because the same contacts come back again and again."""
+"""Stores results that are computed from the contacts of a scene, because the same contacts often come back."""
 
 from collections.abc import Callable
 from typing import Final, Generic, TypeVar
@@ -12,7 +12,7 @@ _KEPT: Final = 1000  # sets of contacts that are remembered
 
 
 class ContactMemo(Generic[T]):
-    """What a function finds about the contacts of a scene. The function is called once for each set of contacts."""
+    """The results of a function of the contacts of a scene. The function is called once for each set of contacts."""
 
     def __init__(self, data: mujoco.MjData, judge: Callable[[NDArray[np.int32]], T]) -> None:
         """`judge` is given the numbers of the geoms that touch, shape (n, 2). Apart from these numbers, the result of
@@ -22,7 +22,7 @@ class ContactMemo(Generic[T]):
         self._known: dict[bytes, T] = {}
 
     def now(self) -> T:
-        """Return what follows from the contacts that the simulator found last."""
+        """Return the result for the contacts that the simulator found last."""
         geoms = self._contact.geom
         key = geoms.tobytes()
         if key not in self._known:

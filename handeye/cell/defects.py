@@ -46,7 +46,7 @@ class OffsetEffect(Effect):
 
 @dataclass(frozen=True, slots=True)
 class DriftEffect(Effect):
-    """A growing amount is added to the values, `rate` per second."""
+    """An amount is added to the values. The amount grows by `rate` per second."""
 
     rate: float
 

@@ -1,8 +1,8 @@
 """Fine photographs: the mean of many exposures, each through a different point of the lens and lit from different
 points of the lamp and the sky.
 
-A plain OpenGL picture has hard shadows and jagged edges, and everything in it is in focus. The mean is taken of the
-light, not of the screen values. The mean has soft shadows, blur where the picture is out of focus, and smooth edges.
+A plain OpenGL picture has hard shadows and jagged edges, and everything in it is in focus. The exposures are averaged
+as light, not as screen values. The mean picture has soft shadows, blur where it is out of focus, and smooth edges.
 """
 
 from collections.abc import Callable, Iterator

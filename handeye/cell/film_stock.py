@@ -1,4 +1,4 @@
-"""Films: each has its own lighting, and makes its own picture of the light."""
+"""Films: each is used with its own lighting, and converts light to a picture in its own way."""
 
 import math
 from collections.abc import Callable, Mapping
@@ -31,7 +31,8 @@ class Lighting:
 
     def throw(self, scene: mujoco.MjvScene, model: mujoco.MjModel, lamp: Array, sky: Array) -> None:
         """Light a scene from one point of the lamp and one point of the sky, each of shape (2,). The point of the lamp
-        is given in radii of its disc, and the point of the sky as seen from above.
+        is given in radii of the lamp's disc. The point of the sky is given by the x and y of the unit vector towards
+        it.
         """
         middle = np.array(model.stat.center)
         scene.nlight = 2
@@ -101,7 +102,7 @@ def _on_screen(light: Array, gain: float) -> Array:
 
 
 def _black_and_white(light: Array) -> Array:
-    """Print on hard paper: deep shadows, and paper white with a slight tint."""
+    """Print on hard paper: shadows are deep, and white has the slight tint of the paper."""
     grey = _contrast(_on_screen(light @ _PANCHROMATIC, 4.5), 0.6)
     tone = 0.06 + 0.90 * grey + _grain(*grey.shape)
     return np.asarray(tone[..., None] * _PAPER)

@@ -1,5 +1,5 @@
-"""A simulated hand, with one motor for both fingers, a potentiometer and two switches; its lamp; and its
-screwdriver.
+"""A simulated hand with its lamp and its screwdriver. The hand has one motor for both fingers, a potentiometer and two
+switches.
 """
 
 from collections.abc import Sequence
@@ -200,8 +200,8 @@ class ScrewdriverState(Record, frozen=True, kw_only=True):
 
 
 class SimulatedScrewdriver(Mechanism[ScrewdriverState], ScrewdriverPort):
-    """The motor of a screwdriver. The torque of the motor is read from actuators of the model. The threads of the task
-    compute the effect of the screwdriver's speed.
+    """The motor of a screwdriver. The torque of the motor is read from actuators of the model. The model of the screw
+    threads in the task computes the effect of the screwdriver's speed.
     """
 
     name = "screwdriver"

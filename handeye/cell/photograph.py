@@ -43,8 +43,8 @@ class Photographer:
         self, scene: mujoco.MjModel, *, width: int, height: int, shadow: int = FINE_SHADOW,
         samples: int = FINE_SAMPLES,
     ) -> None:  # fmt: skip
-        """Prepare for photographs. Raises InvalidInput if OpenGL cannot be used. A smaller shadow map halves the
-        time per photograph.
+        """Prepare for photographs. Raises InvalidInput if OpenGL cannot be used. If the shadow map is smaller than
+        usual, a photograph takes half the time.
         """
         _, self._gl = context()
         self._drawing = drawing(scene, {"shadowsize": shadow, "offsamples": samples}, width, height)

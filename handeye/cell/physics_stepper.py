@@ -1,6 +1,6 @@
 """Steps of the physics: none while everything sleeps, long steps while only carried parts touch other bodies, and
-short steps while there are any other contacts. If the task allows middle steps, the physics uses them instead of short
-steps for most of these other contacts.
+short steps while there are any other contacts. If the task allows middle steps, which are shorter than long steps,
+most of these other contacts are computed in middle steps instead of short steps.
 
 Contacts need short steps, because their softness grows with the square of the step. Free motion does not need short
 steps: with long steps it has the same speeds, but is early by 1.6 ms, half of the difference between a long step and a
@@ -101,7 +101,7 @@ def check_physics(
     warnings: NDArray[np.integer[Any]], rates: NDArray[np.float64], fastest: float = np.inf
 ) -> None:
     """Raise PhysicsFailed if the simulator has given a warning, or if a body moves faster than `fastest` (m/s,
-    rad/s). `warnings` are the numbers of warnings of each kind, and `rates` are the rates of all joints.
+    rad/s). `warnings` gives the number of warnings of each kind, and `rates` gives the rate of each joint.
     """
     counts = warnings.tolist()
     if any(counts):
@@ -306,8 +306,8 @@ class PhysicsStepper:
             impedance[:] = value
 
     def _held(self, touching: BodyPairs) -> tuple[tuple[int, int], ...]:
-        """Return the bodies that the hand carries while these pairs of bodies touch (see `_Contacts`). A carried body
-        touches the hand or another carried body.
+        """Return the bodies that the hand carries while the pairs of bodies in `touching` touch (see `_Contacts`). A
+        carried body touches the hand or another carried body.
         """
         pairs = [{int(self._model.body_treeid[body]) for body in pair} for pair in touching]
         hand = int(self._model.body_treeid[self._hand])

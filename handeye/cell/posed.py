@@ -87,8 +87,8 @@ def standing(scene: mujoco.MjModel, qpos: Array) -> Posed:
 
 
 def as_it_stands(scene: mujoco.MjModel, truth: Truth) -> Posed:
-    """Make a copy of `scene` in which each body has the pose of the same body in a cell. The copy is for pictures, if
-    the cell's own scene has fewer shapes than `scene`.
+    """Make a copy of `scene` in which each body has the pose of the same body in a cell. The copy is used for pictures
+    of a cell whose own scene has fewer shapes than `scene`.
     """
     model, data = truth.model, truth.data
     waiting = {*model.geom_bodyid[model.geom_group == LATENT].tolist()}

@@ -91,8 +91,9 @@ class RayRenderer(SceneRenderer):
 def cast(
     model: mujoco.MjModel, data: mujoco.MjData, origin: Array, rays: Array
 ) -> tuple[NDArray[np.int32], Array, Array]:
-    """Cast rays along unit vectors, shape (n, 3). Returns, for each ray, the geom that it hits, or -1 if it hits none,
-    shape (n,); the distance (m), shape (n,); and the normal, shape (n, 3).
+    """Cast rays along unit vectors, shape (n, 3). Returns three arrays with a row for each ray: the geom that the ray
+    hits, or -1 if it hits none, shape (n,); the distance (m) of this geom, shape (n,); and the normal of the surface,
+    shape (n, 3).
     """
     n = len(rays)
     geom, distance, normal = np.full(n, -1, dtype=np.int32), np.zeros(n), np.zeros(3 * n)

@@ -46,8 +46,8 @@ class SimulatedCell(Clock, SnapshotCell):
     ) -> None:
         """Switch a cell on, and read all its devices for the first time.
 
-        `mechanisms`, such as threads and further arms, act on the model in the given order. All sensors except the
-        camera draw their noise from `noise`. Raises ValueError if two devices or mechanisms have the same name,
+        `mechanisms`, such as screw threads and further arms, act on the model in the given order. All sensors except
+        the camera draw their noise from `noise`. Raises ValueError if two devices or mechanisms have the same name,
         because their states are stored by name.
         """
         self.arm = arm  # kept for the experimenter, who may push the arm

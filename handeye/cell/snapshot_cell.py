@@ -69,8 +69,8 @@ class SnapshotCell:
         )
 
     def restore(self, state: CellState) -> None:
-        """Restore the cell to a state. Everything that the cell does after that is identical, byte for byte, no matter
-        what happened before.
+        """Restore the cell to a state. What the cell does from this state on is always identical, byte for byte, no
+        matter what the cell did before it was restored.
 
         Sleep is not part of a state: when a state is restored, all bodies wake, and then the bodies at rest fall
         asleep again. If an interrupted run is to equal an uninterrupted run, the cell must therefore restore its own
@@ -96,7 +96,7 @@ class SnapshotCell:
         mujoco.mj_setState(model, data, state.physics, INTEGRATION)  # what the solver starts from, too
 
     def _check(self, state: CellState) -> None:
-        """Raise ValueError unless every number in a state fits this cell."""
+        """Raise ValueError unless the values of a state are valid and fit this cell."""
         if state.physics.shape != (mujoco.mj_stateSize(self._model, INTEGRATION),):
             raise ValueError("the saved physics belong to another scene")
         if set(state.figures) != set(self._changes):

@@ -5,8 +5,8 @@ A solid is a coloured surface with a mass. A solid also records whether its surf
 several coloured pieces in the scene, the pieces form one solid here. A surface is closed only if neighbouring faces
 share their corners, so each corner has only one colour. Where two colours meet, the corners get the lighter colour.
 
-The file has a tree of named bodies, their solids, and places on them. In glTF, y points up and colours are linear,
-so axes and colours are converted. Grain and gloss are left out.
+The file has a tree of named bodies. Each body has its solids, and named places on the body. In glTF, y points up and
+colours are linear, so axes and colours are converted. Grain and gloss are left out.
 """
 
 from collections import Counter

@@ -5,17 +5,17 @@ Threads are too fine to simulate by contact. Each tapped hole has a carrier in t
 is an ordinary body until three conditions are met at the same tick: its tip is in the bore, near the axis and deep
 enough; the screw turns clockwise; and its angle matches the phase of the thread. The body of the screw is then parked
 out of sight, and the carrier takes its place. A screw that enters at an angle cuts its own thread, stays at that
-angle, and jams before it is seated. Once the carrier has taken the place of the screw, everything is physics again:
-the shank touches the holes of the parts above, the head touches the part beneath, and friction grows with the clamp
-force. The motor turns the carrier against the body of the driver, so the bodies that hold the driver and the tapped
-part carry the torque. A screw that is turned back to the place where its thread began is loose again. The limits of
-the model are in scenes/water_pump/README.md.
+angle, and jams before it is seated. Once the carrier has taken the place of the screw, the physics computes all that
+follows: the shank touches the holes of the parts above, the head touches the part beneath, and friction grows with the
+clamp force. The motor turns the carrier against the body of the driver, so the bodies that hold the driver and the
+tapped part carry the torque. A screw that is turned back to the place where its thread began is loose again. The
+limits of the model are in scenes/water_pump/README.md.
 
 In a scene with screws, the screws are numbered from 0, and the scene uses the following names. Each screw is a free
 body `screw0`, whose origin is the point of the screw, with a geom `screw_head0` and a site `park0` out of sight. Each
 carrier is a body `carrier0` in the tapped body, with the site `thread0`, the joints `thread_slide0` and
 `thread_turn0`, and the geoms `head0` and `shank0`. The only driver has the geom `bit`, the joint and actuator
-`spindle`, and the actuators `magnet` and `drive`; `drive` acts from the site of a thread on the body of the driver.
+`spindle`, and the actuators `magnet` and `drive`; `drive` acts between the site of a thread and the body of the driver.
 """
 
 from collections.abc import Set
@@ -311,7 +311,7 @@ class Threads(Mechanism[ThreadsState]):
             self.rub(hole, back=speed < 0)
 
     def _under_bit(self) -> int | None:
-        """Return the hole whose screw has the bit in its slot, or None if there is none."""
+        """Return the hole whose screw has the bit in its slot, or None if the bit is in no slot."""
         places, filled = (
             self._data.geom_xpos,
             [k for k, thread in enumerate(self.holes) if thread.screw is not None],

@@ -1,4 +1,6 @@
-"""The true state of a simulated cell. It is meant for the referee, the trace and tests, never for the working phase."""
+"""The true state of a simulated cell. Only the referee, the trace and tests may use the true state, never the working
+phase.
+"""
 
 import copy
 from collections.abc import Mapping

@@ -75,7 +75,7 @@ def _world(begun: RunStarted) -> Iterator[tuple[str, str]]:
 
 
 def _fault(task: Task | None, world: WorldSpec, fault: Fault) -> str:
-    """Return a fault in the form in which users type it, if its task is known."""
+    """Return a fault in the form in which users type it. If the task is unknown, return the fault's name and value."""
     catalogue = None if task is None else task.faults(world)
     return str(fault) if catalogue is None or fault.name not in catalogue.kinds else catalogue.written(fault)
 

@@ -62,7 +62,7 @@ def stretches(trace: Trace, *, unseen: int, periods: bool = True) -> Iterator[St
     poses recorded at that moment belong to the step's stretch.
 
     Args:
-        unseen: number of an event; the messages that accompany the events before it are left out.
+        unseen: number of an event; messages that belong to earlier events are left out.
         periods: include the messages of each servo period.
     """
     stretch = Stretch(None, trace.messages[0].time)

@@ -122,7 +122,9 @@ class TwoRuns:
 
     @cached_property
     def numbers(self) -> tuple[Mapping[int, int], Mapping[int, int]]:
-        """For each program, a map from the number of a step to the number of its pair."""
+        """For each program, a map from the number of a step to the number of the step of the other program with which
+        it is paired.
+        """
         a, b = (
             {step: number for number, pair in enumerate(self.pairs) if (step := pair[side]) is not None}
             for side in (0, 1)
@@ -216,8 +218,8 @@ def course(runs: TwoRuns) -> Course:
 
 
 def _done(run: RecordedRun, steps: Sequence[CarriedOut]) -> list[_TimedStep]:
-    """Return the steps of a run with their times. The first item is the time before the first step. Each step lasts
-    until the next step begins.
+    """Return the steps of a run with their times. Each step lasts until the next step begins. The time before the
+    first step is an item of its own, which comes first.
     """
     begun = [each.place for each in steps]
     times = [*(place.time for place in begun), run.ends]
@@ -228,8 +230,8 @@ def _done(run: RecordedRun, steps: Sequence[CarriedOut]) -> list[_TimedStep]:
 def _side_by_side(
     runs: TwoRuns, a: Sequence[_TimedStep], b: Sequence[_TimedStep]
 ) -> Iterator[tuple[_TimedStep | None, _TimedStep | None]]:
-    """Yield the pairs of steps in order. Steps that only one run executed come between the pairs. The steps of the
-    first run come first.
+    """Yield the pairs of steps in order. Steps that only one run executed come between the pairs. Among these, the
+    steps of the first run come before those of the second.
     """
     one, other = ([_BEFORE, *(each.turn[0] for each in steps)] for steps in runs.carried_out)
     for tag, i, j, k, m in SequenceMatcher(None, one, other, autojunk=False).get_opcodes():

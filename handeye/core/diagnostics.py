@@ -130,7 +130,9 @@ LONGEST_COMPARED: Final = 40  # characters; the time of the search grows with th
 
 
 def quoted(name: str) -> str:
-    """Quote a word of the user's text for a sentence: in backquotes, shortened to 40 characters, printable."""
+    """Quote a word of the user's text for a sentence. The word is put in backquotes and shortened to 40 characters,
+    and its control characters are shown as symbols.
+    """
     short = name if len(name) <= 40 else name[:39] + "…"
     return f"`{_visible(short)[0]}`"
 
@@ -165,8 +167,8 @@ def names_sentence(names: SimilarName | KnownNames | None) -> str | None:
 
 
 def nearest(name: str, known: Iterable[str], farthest: int) -> str | None:
-    """Find a known name that looks the same. If there is none, find the name at the least edit distance. Returns None
-    if that distance is greater than `farthest`.
+    """Find a known name that looks the same as `name`. If there is none, find the known name at the least edit
+    distance from `name`. Returns None if that distance is greater than `farthest`.
     """
     choices = sorted(set(known))
     if _too_many(name, choices):
@@ -184,8 +186,8 @@ def _too_many(name: str, choices: Sequence[str]) -> bool:
 
 
 def _distance(a: str, b: str, farthest: int) -> int:
-    """Return the edit distance, in which swapping two neighbours counts 1 (Damerau-Levenshtein). A distance greater
-    than `farthest` may be returned as any number greater than `farthest`.
+    """Return the edit distance of two words. Swapping two neighbouring characters counts as one edit
+    (Damerau-Levenshtein). A distance greater than `farthest` may be returned as any number greater than `farthest`.
     """
     if abs(len(a) - len(b)) > farthest:
         return farthest + 1
@@ -291,8 +293,8 @@ def _frame(line: str, labels: Sequence[_Mark]) -> tuple[str, list[str]]:
 
 
 def _rows(marks: list[tuple[int, int, str, str]]) -> list[str]:
-    """Build the rows below a line: the marks, with the text of the last mark beside them, then the other texts,
-    joined to their marks by vertical bars.
+    """Build the rows below a line. The first row has all marks, and the text of the last mark beside them. The next
+    rows have the texts of the other marks, joined to these marks by vertical bars.
     """
     under = [" "] * max(end for _, end, _, _ in marks)
     for start, end, mark, _ in sorted(marks, key=lambda m: m[2] == "^"):

@@ -78,7 +78,7 @@ class Uniform(Distribution):
 
 @dataclass(frozen=True, slots=True)
 class _Constant(Distribution):
-    """Base class of errors that have the same value in every world of a level."""
+    """Base class of errors that have the same value in all worlds with the same error level."""
 
     spread: float
 
@@ -88,21 +88,21 @@ class _Constant(Distribution):
 
 @dataclass(frozen=True, slots=True)
 class Noise(_Constant):
-    """Standard deviation of a sensor's noise, the same in every world of a level."""
+    """Standard deviation of a sensor's noise. It is the same in all worlds with the same error level."""
 
     name = "noise"
 
 
 @dataclass(frozen=True, slots=True)
 class Fixed(_Constant):
-    """An error of the same size in every world of a level."""
+    """An error that has the same size in all worlds with the same error level."""
 
     name = "fixed"
 
 
 @dataclass(frozen=True, slots=True)
 class Step(_Constant):
-    """Step of an analogue-to-digital converter, the same in every world at every level."""
+    """Step of an analogue-to-digital converter. It is the same in all worlds, whatever the error level."""
 
     name = "step"
     is_error = False
@@ -110,8 +110,8 @@ class Step(_Constant):
 
 @dataclass(frozen=True, slots=True)
 class Range(Distribution):
-    """Uniform distribution from `low` to `high`. The quantity belongs to the task and is not an error, so the level
-    does not change it.
+    """Uniform distribution from `low` to `high`. The quantity belongs to the task and is not an error, so the error
+    level does not change its range.
     """
 
     name = "range"
@@ -148,8 +148,8 @@ class Phase(Distribution):
 
 @dataclass(frozen=True, slots=True)
 class Choice(Distribution):
-    """A choice within the task. The value is the nominal one, or another of `values` if the user sets it. It does not
-    depend on the seed.
+    """A choice that the task offers. The value is the nominal one, unless the user sets another of `values`. The value
+    does not depend on the seed.
     """
 
     name = "choice"

@@ -164,8 +164,8 @@ def loaded(place: str, what: str = "") -> Any:
 
 
 def entry_of_file(name: str) -> tuple[Entry | None, str]:
-    """Find the entry of the system in whose language a file is written, by the ending of the file's name. Returns
-    the entry, and the longest ending that matches; None and "" if no ending matches.
+    """Find the entry of the system in whose language a file is written, by the ending of the file's name. Returns two
+    values: the entry, and the longest ending that matches. If no ending matches, the values are None and "".
     """
     known = {ending: entry for entry in entries().values() for ending in entry.languages}
     ending = max(filter(name.lower().endswith, known), key=len, default="")

@@ -19,8 +19,8 @@ interface or gives an unusable file, and for a run that broke down; each carries
     ├── CalibrationFailed         the camera could not be calibrated
     └── FrictionUnknown           the friction of the joints could not be measured
 
-A system or a sweep may define exceptions below these. If any of these exceptions is raised, the command line ends with
-exit code 2.
+A system or a sweep may define subclasses of these exceptions. If any of these exceptions is raised, the command line
+ends with exit code 2.
 """
 
 from typing import Final
@@ -43,7 +43,7 @@ class NoSuchName(BadArgument):
 
 
 class BadFile(InvalidInput):
-    """Raised when a file is missing, cannot be read, is damaged, or is of another version, plan or run."""
+    """Raised when a file is missing, cannot be read, is damaged, or belongs to another version, plan or run."""
 
 
 class CannotWrite(InvalidInput):

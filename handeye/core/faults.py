@@ -180,8 +180,8 @@ class Catalogue:
         raise NoSuchName(f"there is no fault {quoted(name)}; {near}")
 
     def select(self, name: str) -> tuple[FaultKind, ...]:
-        """Return the kind of fault called `name`, or all kinds in the group of that name. Raises NoSuchName if there
-        is neither.
+        """Return the kind of fault called `name`, or all kinds in the group of that name. Raises NoSuchName if neither
+        a kind nor a group has that name.
         """
         found = tuple(kind for kind in self.kinds.values() if f"{kind.name}.".startswith(f"{name}."))
         return found or (self.kind(name),)
@@ -202,7 +202,9 @@ class Catalogue:
 
 
 def _begun(fault: Fault) -> str:
-    """Write the beginning of a fault as users type it; empty if the fault is present from the start."""
+    """Write when a fault begins, in the form in which users type it. The text is empty if the fault is present from
+    the start.
+    """
     if fault.after is not None:
         return f"@{fault.after:g}s"
     return "" if fault.stage is None else f"@{fault.stage}"

@@ -43,8 +43,8 @@ class Kind:
 
 
 def page_kind(name: str, mark: str) -> Kind:
-    """Return the kind of file for web pages that begin with the text `mark`. Earlier versions wrote `doctype` in lower
-    case.
+    """Return the kind of file for web pages that begin with the text `mark`. Pages of earlier versions, which have
+    `doctype` in lower case, are of this kind too.
     """
     return Kind(name, mark.replace("DOCTYPE", "(?i:doctype)").encode(), ending=".html")
 
@@ -107,10 +107,10 @@ def settle(file: int) -> None:
 
 
 def check_place(path: Path, kind: Kind, *, overwrite: bool = True) -> None:
-    """Check that a file of this kind can be written here without replacing a file of another kind.
+    """Check that a file of this kind can be written at `path` without replacing a file of another kind.
 
     Raises:
-        CannotWrite: the file cannot be written there.
+        CannotWrite: the file cannot be written at `path`.
         Taken: a file of this kind exists, and `overwrite` is False.
     """
     if not path.name.lower().endswith(kind.ending):

@@ -23,8 +23,8 @@ class FolderKind:
 
 
 def check_folder(path: Path, kind: FolderKind, *, overwrite: bool) -> None:
-    """Check that a folder of this kind can be written here. Raises CannotWrite if the folder cannot be written, or
-    Taken if a folder exists here and must not be replaced.
+    """Check that a folder of this kind can be written at `path`. Raises CannotWrite if the folder cannot be written,
+    or Taken if there is already a folder at `path` that must not be replaced.
     """
     try:
         _refuse_others(path, kind, overwrite=overwrite)
@@ -83,7 +83,7 @@ def fill_folder(path: Path, fill: Callable[[Path], None]) -> None:
 
 
 def _put(temporary: Path, place: Path) -> None:
-    """Rename the new folder to its place. If the renaming fails, restore the old folder."""
+    """Put the new folder in its place by renaming it. If the renaming fails, restore the old folder."""
     try:
         (temporary / "new").rename(place)
     except BaseException:

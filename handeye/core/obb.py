@@ -25,8 +25,8 @@ def halves(boxes: Sequence[Box]) -> Array:
 
 
 def lowest(X_WA: Pose, boxes: Sequence[Box]) -> Array:
-    """Return the height (m) of the lowest corner of each box, shape (N, n). The n boxes are given in frame A, which
-    takes the N poses `X_WA`, shape (N, 4, 4).
+    """Return the height (m) of the lowest corner of each box, shape (N, n). The n boxes are given in frame A. `X_WA`,
+    shape (N, 4, 4), are N poses of this frame.
     """
     up = X_WA[:, 2:3, :3]
     centre = X_WA[:, 2, 3, None] + (up @ middles(boxes).T)[:, 0]

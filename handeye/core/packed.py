@@ -1,4 +1,5 @@
-"""Stores states on disk as compressed MessagePack with arrays. A first line gives the kind, version and digest.
+"""Stores states on disk as compressed MessagePack with arrays. The first line of such a file gives its kind, version
+and digest.
 
 A file that is truncated, has a wrong bit, or would fill the memory is refused before its content is used.
 """

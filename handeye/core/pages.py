@@ -39,7 +39,9 @@ def page_named(topic: str, folder: Path) -> Path:
 
 
 def sections(index: str) -> Iterator[tuple[str, list[tuple[str, str]]]]:
-    """Headings of the index, each with its topics and their sentences."""
+    """The headings of the index. Each heading comes with its topics, and each topic with the sentence that describes
+    it.
+    """
     for section in re.split(r"^## ", index, flags=re.MULTILINE)[1:]:
         entries = [(_topic(found["page"]), _plain(found["sentence"])) for found in _ENTRY.finditer(section)]
         if entries:

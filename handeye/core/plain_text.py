@@ -59,8 +59,8 @@ def distinct_digits(numbers: Sequence[float], decimals: int) -> list[str]:
 
 
 def enough_digits(number: float, decimals: int, *, up: bool = False) -> str:
-    """Write a positive number with `decimals` digits after the point, and with more if fewer than two digits would
-    be significant: .0041 is not written `0.00`.
+    """Write a positive number with `decimals` digits after the point, or with more digits if only one or none of them
+    would be significant: .0041 is not written `0.00`.
 
     If `up` is True, the number is rounded up, so that the written number is never too small.
     """

@@ -66,8 +66,8 @@ def off_poses(poses: Array, at: Array, *, place: float, turn: float) -> Off:
     """Make a function that returns how far poses deviate from interpolation, divided by the tolerances `place` (m)
     and `turn` (rad).
 
-    `poses` has shape (n, 7): positions (m), then unit quaternions w, x, y, z, continuous in sign. `at` is the time
-    of each row, or another parameter.
+    `poses` has shape (n, 7): positions (m), then unit quaternions w, x, y, z, continuous in sign. `at` gives, for each
+    row, the time or another quantity along which the poses are interpolated.
     """
 
     def off(first: Rows, row: Rows, last: Rows) -> Array:

@@ -1,4 +1,5 @@
-"""Poses as 4x4 homogeneous matrices `X_AB`: the pose of frame B in frame A, so that inner letters cancel.
+"""Poses as 4x4 homogeneous matrices `X_AB`: the pose of frame B in frame A. In a product, the inner letters cancel:
+`X_AC = X_AB X_BC`.
 
 Letters: W world (the table frame: origin at a table corner, z up, table top z = 0), B arm base, T tool centre point
 (midway between the finger tips), C camera, P part.

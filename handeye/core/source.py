@@ -51,20 +51,22 @@ class Source:
         return self, *self.required
 
     def find(self, offset: int) -> "tuple[Source, int]":
-        """Find the text in which an offset of the combined text lies. Returns the text, and the offset within it."""
+        """Find the text in which an offset lies. Offsets run through this text and then through the texts that it
+        requires. Returns the text, and the offset within that text.
+        """
         if not self.required:
             return self, offset
         number = bisect_right(self._begins, offset) - 1
         return self.texts[number], offset - self._begins[number]
 
     def marked(self, span: Span) -> str:
-        """Return the characters in a span of the combined text. The span must lie within one text."""
+        """Return the characters in a span, whose offsets are as in `find`. The span must lie within one text."""
         text, start = self.find(span.start)
         return text.text[start : start + span.end - span.start]
 
     @cached_property
     def begins(self) -> dict[str, int]:
-        """Offset in the combined text at which each text begins, by key of the text."""
+        """Offset (as in `find`) at which each text begins, by key of the text."""
         return {text.key: begin for text, begin in zip(self.texts, self._begins, strict=True)}
 
     @cached_property
@@ -91,7 +93,7 @@ class Source:
         return offset - self.text.rfind("\n", 0, offset) - 1
 
     def span(self, key: str, line: int, columns: tuple[int, int]) -> Span:
-        """Return the span in the combined text that covers columns of a line in the text with key `key`."""
+        """Return the span that covers `columns` of a line in the text with key `key`. Its offsets are as in `find`."""
         text = next(text for text in self.texts if text.key == key)
         start = self.begins[key] + text._starts[line - 1]
         return Span(start=start + columns[0], end=start + columns[1])

@@ -63,7 +63,7 @@ class Measures(Record, frozen=True, kw_only=True):
         return f"({', '.join(map(self._number, p))}) {self.length.name}"
 
     def distance(self, metres: float) -> str:
-        """Write a length (m) as text in the chosen unit."""
+        """Write a length (m) as text in the unit of lengths."""
         return f"{self._number(metres)} {self.length.name}"
 
     def _number(self, metres: float) -> str:

@@ -2,7 +2,7 @@
 
 A quantity is one number with a dotted name such as `camera.place.x`; the part of a name before each dot is the name of
 a group (`camera.place`, `camera`). Each quantity is drawn from a separate random stream, made from the seed and the
-quantity's name. Adding a quantity therefore changes no other quantity, and one quantity can be switched off or set
+quantity's name. Adding a quantity therefore changes no other quantity, and the user can switch off or set one quantity
 while the others keep their values.
 """
 
@@ -179,12 +179,12 @@ class Variation:
         return values.get(choice, self.quantities[choice].nominal) == wanted
 
     def select(self, name: str, values: Mapping[str, float] | None = None) -> tuple[Quantity, ...]:
-        """Return the quantity called `name`, or all quantities in the group of that name. Raises NoSuchName if there
-        is neither.
+        """Return the quantity called `name`, or all quantities in the group of that name. Raises NoSuchName if neither
+        a quantity nor a group has that name.
 
         Args:
             values: values set in the world (SI). Quantities that a world with these values does not have are left out.
-                If `values` is None, the quantities of all worlds count.
+                If `values` is None, the quantities of all worlds are taken.
         """
         found = tuple(q for q in self.quantities.values() if within(q.name, name))
         there = [q for q in found if values is None or self._is_there(q, values)]
@@ -208,7 +208,7 @@ class Variation:
         return World(spec=spec, values={name: self.value(name, spec) for name in there})
 
     def value(self, name: str, spec: WorldSpec) -> float:
-        """Draw the value of one quantity in a world, SI."""
+        """Draw the value of one quantity in a world, in SI units."""
         quantity = self.quantities[name]
         if name in spec.overrides.set:
             return spec.overrides.set[name]

@@ -72,8 +72,8 @@ def _scale(variation: Variation, text: str) -> tuple[str, float]:
 
 
 def _setting(variation: Variation, text: str) -> tuple[str, dict[str, float]]:
-    """Parse a setting. Returns the name of a quantity or group, and a value for each quantity that the name stands for
-    in at least one world.
+    """Parse a setting. Returns the name of a quantity or group, and a value for each quantity with that name or in
+    that group. A quantity counts if at least one world has it.
     """
     name, equals, value = (part.strip() for part in text.partition("="))
     if not equals:
@@ -121,8 +121,8 @@ StageNumber = Callable[[str], int]  # returns the number, from 1, of a stage as 
 
 
 def faults(catalogue: Catalogue, texts: Iterable[str], stage: StageNumber) -> tuple[Fault, ...]:
-    """Parse faults from options and sort them by name. Raises BadArgument for a duplicate or for an unknown name,
-    value or stage.
+    """Parse faults from options and sort them by name. Raises BadArgument if a fault is given twice, or if a name,
+    value or stage is unknown.
     """
     found = tuple(sorted((_fault(catalogue, text, stage) for text in texts), key=lambda fault: fault.name))
     catalogue.check(found)

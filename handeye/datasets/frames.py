@@ -111,8 +111,8 @@ def _means(values: Array, first: NDArray[np.intp], last: NDArray[np.intp]) -> Ar
 def _last_felt(
     estimated: NDArray[np.bool_], first: NDArray[np.intp], last: NDArray[np.intp]
 ) -> NDArray[np.intp]:
-    """For each frame, return the last reading that has an estimate of force, or the first reading if none has an
-    estimate.
+    """For each frame, return the last reading that has an estimate of force, or the first reading if no reading of the
+    frame has an estimate.
     """
     newest = np.maximum.accumulate(np.where(estimated, np.arange(len(estimated)), 0))
     return np.maximum(newest[last], first)

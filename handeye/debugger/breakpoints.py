@@ -80,10 +80,10 @@ def step_number(text: str, listing: Listing) -> int:
 
 
 def meant(name: str, known: Iterable[str]) -> str:
-    """Return `; did you mean ...` with the nearest known name. The text is empty if no known name agrees with at least
-    half of `name`.
+    """Return `; did you mean ...` with the nearest known name. The text is empty if more than half of the characters
+    of `name` would have to be changed.
 
-    Names typed at the stepper are short, so half is enough: a user who types `L9` may mean `L1`.
+    Names typed at the stepper are short, so half of the characters may be wrong: a user who types `L9` may mean `L1`.
     """
     near = nearest(name, known, (len(name) + 1) // 2)
     return f"; did you mean {quoted(near)}?" if near else ""
@@ -150,7 +150,7 @@ def is_ahead(stop: AnyStop, start: Checkpoint) -> bool:
 
 
 def _steps(stop: AnyStop, listing: Listing) -> frozenset[int] | None:
-    """Return the steps before which a condition stops, or None if the condition is not a place."""
+    """Return the steps before which a condition stops the run, or None if the condition is not a place."""
     match stop:
         case AtSteps():
             return frozenset(stop.steps)

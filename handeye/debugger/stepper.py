@@ -91,7 +91,9 @@ class Stepper:
         return self._reply("", told, len(runner.events))
 
     def _reply(self, line: str, told: CommandResult, happened: int, error: str | None = None) -> Reply:
-        """Return the reply to a line, with the events of the run after the first N, where N is `happened`."""
+        """Return the reply to a line. The reply contains the events of the run, without the first N of them, where N
+        is `happened`.
+        """
         session = self.session
         runner, step, stage = session.runner, session.runner.next, session.stage
         events = runner.events[happened:]

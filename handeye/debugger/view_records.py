@@ -25,7 +25,7 @@ class HandView(Record, frozen=True, kw_only=True):
 
 
 class ErrorView(Record, frozen=True, kw_only=True):
-    """The error whose occurrence the next step tests."""
+    """The error for which the next step tests."""
 
     number: int
     sentence: str

@@ -104,7 +104,7 @@ class Document:
         return line
 
     def name_at(self, offset: int) -> Occurrence | None:
-        """Return the name at an offset, or just before it, or None."""
+        """Return the name that contains an offset or ends just before it. Returns None if there is no such name."""
         return next((name for name in self.names if name.span.start <= offset <= name.span.end), None)
 
     def whole_line(self, number: int) -> Span:

@@ -108,8 +108,9 @@ def _shortened(lines: list[str], most: int = 16) -> list[str]:
 
 @cache
 def example(code: str) -> tuple[Source, Diagnostic | None]:
-    """Return the example of a code, and the diagnostic that it causes. The diagnostic is None if the example
-    alone does not cause it."""
+    """Return the example of a code, and the diagnostic that the example causes. In place of the diagnostic, return
+    None if the example alone does not cause such a diagnostic.
+    """
     source = sewn_of(Source(name="example.al", text=CODES[code].example), CODES[code].required)
     program, found = compile_text(source, SAMPLE)
     if program is not None:

@@ -86,7 +86,7 @@ def jump_over(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
 
 
 def _behind_motion(document: Document, number: int) -> int | None:
-    """Return the start of the line after the next motion and its RESTOREs, or None."""
+    """Return the start of the line after the next motion and its RESTOREs, or None if no motion follows."""
     moved = False
     for line in document.lines[number:]:
         definition, _ = instruction(line)
@@ -99,7 +99,7 @@ def _behind_motion(document: Document, number: int) -> int | None:
 
 def drop_test(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
     """Yield a fix that removes a test of an impossible error if the test is a SKIPE, which then never skips. A SKIPN
-    of an impossible error always skips, so no fix is plausible.
+    of an impossible error always skips. No fix is offered for it, because its purpose is unknown.
     """
     if word_of(line_of(document, diagnostic)) == "SKIPE":
         yield from remove_line(document, diagnostic)

@@ -43,7 +43,7 @@ class Hover:
 
 
 def hover(document: Document, offset: int) -> Hover | None:
-    """Return help for the token at an offset, or None."""
+    """Return help for the token at an offset, or None if there is no help for it."""
     line = document.line_at(offset)
     if line is None:
         return None

@@ -24,7 +24,7 @@ class MacroBody:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Use:
-    """An operand of an instruction that takes its value from an operand of a macro call."""
+    """An operand of an instruction whose value comes from an operand of a macro call."""
 
     definition: Instruction
     operand: Operand

@@ -69,7 +69,9 @@ class EditedScript:
         return wire.range_(self.document.source, span, self.units)
 
     def published(self, found: Diagnostic) -> lsp.Diagnostic:
-        """Return a diagnostic for the editor. A diagnostic in a required file is shown at the REQUIRE."""
+        """Return a diagnostic for the editor. A diagnostic in a required file is shown at the REQUIRE that leads to
+        the file.
+        """
         related = [(self.place(label.span), label.text) for label in found.secondary]
         text, start = self.document.whole.find(found.primary.span.start)
         place = self.place(found.primary.span)
@@ -80,7 +82,7 @@ class EditedScript:
         return wire.diagnostic(found, self.range(at), [(place, ""), *related], f"{where}: ")
 
     def place(self, span: Span) -> lsp.Location:
-        """Return the protocol location of a span in the combined text."""
+        """Return the protocol location of a span."""
         text, start = self.document.whole.find(span.start)
         local = Span(start=start, end=start + span.end - span.start)
         return lsp.Location(uri=self._uri(text), range=wire.range_(text, local, self.units))
@@ -105,8 +107,8 @@ class EditedScript:
         return uri in map(self._uri, self.document.whole.required)
 
     def _taught_text(self, file: Path) -> str:
-        """Return the text of the taught file, from the editor if the file is open there. The text is empty if there is
-        no such file.
+        """Return the text of the taught file. If the file is open in the editor, the text comes from the editor. The
+        text is empty if there is no such file.
         """
         if not is_there(file):
             return ""
@@ -122,7 +124,7 @@ class EditedScript:
         return from_fs_path(os.path.normpath(self._folder / key)) or ""
 
     def _read(self, key: str) -> str:
-        """Return the text of a required file, from the editor if the file is open there."""
+        """Return the text of a required file. If the file is open in the editor, the text comes from the editor."""
         opened = self._workspace.text_documents.get(self._uri_of(key))
         assert self._folder is not None
         return read_source(self._folder / key).text if opened is None else opened.source

@@ -26,7 +26,9 @@ class ArmCommands:
         drive.watch = self._noted
 
     def act(self, values: Values) -> None:
-        """Let a servo period pass with these commands. Raises PhysicsFailed if the simulation breaks down."""
+        """Let a servo period pass in which the devices execute the commands `values`. Raises PhysicsFailed if the
+        simulation breaks down.
+        """
         state = self._drive.state
         state.gap, state.grip, state.tool = values["gap"], values["grip"], values["driver"]
         state.magnet = values["magnet"] > SWITCHED

@@ -1,4 +1,6 @@
-"""The arm of a task with planned programs, commanded in servo periods. Hand, screwdriver and camera belong to it."""
+"""The arm of a task with planned programs, commanded in servo periods. The hand, the screwdriver and the camera belong
+to the arm.
+"""
 
 from collections.abc import Mapping
 from functools import cached_property

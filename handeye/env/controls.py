@@ -27,13 +27,15 @@ class Controls(ABC):
 
     @abstractmethod
     def act(self, values: Values) -> None:
-        """Let a period pass with these commands. Raises PhysicsFailed if the simulation breaks down, or
-        MachineStopped.
+        """Let a period pass in which the machine executes the commands `values`. Raises PhysicsFailed if the
+        simulation breaks down, or MachineStopped if the machine has stopped for good.
         """
 
     @abstractmethod
     def stop(self) -> None:
-        """Bring the machine to rest, because the policy says that the work is done. Raises the same as `act`."""
+        """Bring the machine to rest, because the policy says that the work is done. Raises the same exceptions as
+        `act`.
+        """
 
     @abstractmethod
     def seen(self) -> Observation:
@@ -45,7 +47,9 @@ class Controls(ABC):
         return {}
 
     def facts(self, common: Mapping[str, Any]) -> Facts:
-        """Return what a policy may know. `common` are the arguments of `Facts`."""
+        """Return what a policy may know. `common` are those arguments of `Facts` that do not depend on the kind of
+        machine.
+        """
         return Facts(**common)
 
 

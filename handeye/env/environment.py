@@ -107,7 +107,7 @@ class AssemblyEnv(gymnasium.Env[Observation, Array]):
 
         Returns: the first observation, and a dictionary with these entries: the world; the stage of the program with
             which the episode begins; what the machine has measured of itself or was taught; and the seeds of the
-            worlds that were passed over, because the program does not reach this stage there.
+            worlds that were passed over, because the program does not reach this stage in them.
 
         Raises:
             InvalidInput: the seed or an option cannot be used.
@@ -263,7 +263,7 @@ class AssemblyEnv(gymnasium.Env[Observation, Array]):
 
 
 def _settings(name: str, given: object) -> dict[str, Any]:
-    """Return the settings of a world as a dictionary. Raises BadArgument if the settings are anything else."""
+    """Return settings of a world as a dictionary. Raises BadArgument if they are neither a dictionary nor None."""
     if not isinstance(given, Mapping | None):
         raise BadArgument(f"`{name}` must be a dictionary of settings of a world, not {given!r}")
     return dict(given or {})

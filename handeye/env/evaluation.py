@@ -95,7 +95,7 @@ class Evaluation:
     settings: Mapping[str, Any] = field(default_factory=dict)  # further arguments of the environment
 
     def __call__(self, case: Case) -> list[EpisodeRow]:
-        """Play the episode of a case. Raises InvalidInput, or what the policy raises."""
+        """Play the episode of a case. Raises InvalidInput, or any exception that the policy raises."""
         maker = policy_maker(self.policy, self.environment)
         env = AssemblyEnv(self.environment, action=self.action, pictures=self._sees(maker), **self.settings)
         found = play(env, maker, case.seed)

@@ -1,6 +1,6 @@
 """The jobs of the environments: where each episode starts, and what the referee requires at its end.
 
-Here are the jobs of tasks with planned programs. The other systems name theirs in their entries.
+This module has the jobs of tasks with planned programs. The other systems name their jobs in their entries.
 """
 
 from collections.abc import Mapping
@@ -149,7 +149,7 @@ def jobs() -> tuple[Job, ...]:
 
 
 def job_named(name: str) -> Job:
-    """Return the job of an environment. Raises NoSuchName if there is none."""
+    """Return the job of an environment. Raises NoSuchName if there is no such environment."""
     found = next((job for job in PLANNED if job.id == name), None)
     if found is not None:
         return found
@@ -163,5 +163,7 @@ def job_named(name: str) -> Job:
 
 
 def _elsewhere() -> Mapping[str, str]:
-    """For each environment that a system names in its entry, return where its job is imported from."""
+    """For each environment that a system names in its entry, return the location from which the environment's job is
+    imported.
+    """
     return {name: place for entry in entries().values() for name, place in entry.environments.items()}

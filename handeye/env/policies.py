@@ -1,4 +1,4 @@
-"""Policies: what they know, how an episode calls them, and which are included."""
+"""Policies: what they know, how an episode calls them, and which policies are included with handeye."""
 
 import os
 import sys
@@ -72,8 +72,8 @@ class Policy:
     """A policy for one episode: `MODULE:NAME` names the class of the policy, or a function that makes the policy from
     the facts.
 
-    A policy that answers each observation with an action has the method `act`. One that is written as a sequence of
-    motions overrides `play` instead, and calls `episode.step` once in each period.
+    A policy that answers each observation with an action has the method `act`. A policy that is written as a sequence
+    of motions overrides `play` instead, and calls `episode.step` once in each period.
     """
 
     actions: tuple[ActionKind, ...] = (
@@ -122,8 +122,8 @@ BUILT_IN: Final = {
 
 
 def policy_maker(name: str, environment: str) -> PolicyMaker:
-    """Return the maker of a policy for an environment: one that is included, or MODULE:NAME in a module on Python's
-    path or in the current folder. Raises InvalidInput if there is none.
+    """Return the maker of a policy for an environment: a policy included with handeye, or MODULE:NAME in a module on
+    Python's path or in the current folder. Raises InvalidInput if there is no such policy.
     """
     included = {**BUILT_IN, **job_named(environment).policies}
     if name in included:

@@ -20,7 +20,7 @@ def potential(job: Job) -> Potential | None:
 
 
 def _pin(runner: Runner) -> float:
-    """Return the depth of the pin below its seat, in units of a hundred millimetres. The depth is negative while the
+    """Return the depth of the pin below its seat, in units of 100 mm. The depth is negative while the
     pin is above its seat.
     """
     return -findings_so_far(runner)["seat"].value * MILLIMETRE / (100 * MILLIMETRE)

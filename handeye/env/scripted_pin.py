@@ -1,7 +1,8 @@
-"""A scripted policy for `handeye/Pin-v0`: guarded descents at the places of a spiral, then a press to the seat.
+"""A scripted policy for `handeye/Pin-v0`: the hand makes guarded descents at the places of a spiral until it finds the
+hole, then presses the pin down to its seat.
 
-It knows only the observations. The policy uses the servo of the working phase. This servo computes torques from the
-readings, and estimates the force on the hand from torques and rates.
+The policy knows only the observations. The policy uses the servo of the working phase. This servo computes torques
+from the readings, and estimates the force on the hand from torques and rates.
 """
 
 from typing import Final

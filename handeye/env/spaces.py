@@ -35,7 +35,9 @@ _LATE: Final = 1e6  # beyond any reading of the clock, s
 
 
 class Component(Record, frozen=True, kw_only=True):
-    """One component of an action. The value of the component, in `unit`, is the number in the Box times `scale`."""
+    """One component of an action. The value of the component, in `unit`, is its number in the Box of the action space,
+    times `scale`.
+    """
 
     name: str
     scale: float

@@ -1,7 +1,7 @@
 """Calibrates the camera to the arm: the arm carries its lamp through the view of the camera.
 
-The camera is calibrated once when it is set up, before any pump is made, so the table of 1973 does not include the
-time for the calibration. The position of the hand is measured by the sensors of the arm. The same arm grasps the
+The camera is calibrated once when it is set up, before any pump is made, so the times that were published in 1973 do
+not include the calibration. The position of the hand is measured by the sensors of the arm. The same arm grasps the
 parts later, so errors common to calibration and grasping cancel.
 """
 

@@ -88,8 +88,8 @@ class ExecutionContext:
 
     @property
     def part_here(self) -> str:
-        """The part to which the goal of the last MOVE belongs, so that the hand should be at this part; empty if
-        the goal belongs to no part.
+        """The part at which the hand should be, because the goal of the last MOVE belongs to it. Empty if the goal
+        belongs to no part.
         """
         place = self.plan.program.positions.get(self.state.place)
         return "" if place is None or place.of is None else place.of

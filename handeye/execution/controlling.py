@@ -1,4 +1,4 @@
-"""Servo periods that a controller of the calling program commands, between two steps of the plan.
+"""Servo periods between two steps of the plan, in which a controller of the calling program commands the arm.
 
 The controller knows the cell only by the readings of the devices, and acts only through the devices.
 """

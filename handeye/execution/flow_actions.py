@@ -86,8 +86,8 @@ def advance(run: ExecutionContext, _: Advance) -> Fault | None:
 
 
 def save(run: ExecutionContext, operation: Save) -> None:
-    """Save the difference between the present position of the hand and the goal of the last Move. After a Center,
-    only the part along the finger line is saved.
+    """Save the difference between the present position of the hand and the goal of the last Move. After a Center, only
+    the component of the difference along the finger line is saved.
     """
     difference = run.drive.hand()[:3, 3] - run.state.goal
     if operation.name in run.state.restored:  # the shift that this difference has already added

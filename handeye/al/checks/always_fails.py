@@ -1,4 +1,4 @@
-"""Finds steps that can never have their effect, or that always raise an error, whatever the arm meets."""
+"""Finds steps that can never have their effect, or that raise an error in every world."""
 
 import math
 import re

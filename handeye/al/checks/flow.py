@@ -1,7 +1,7 @@
 """Checks of control flow, made on the graph of steps.
 
-A statement of a macro becomes several steps, one for each call of the macro. The statement is reported only if the
-statement is wrong in all calls that give it the same operands.
+A statement of a macro becomes several steps, one for each call of the macro. Calls that give the statement the same
+operands are checked together: the statement is reported only if it is wrong in all of these calls.
 """
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -40,8 +40,8 @@ def check_flow(graph: Graph, origins: Sequence[Statement]) -> list[Diagnostic]:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Order:
-    """An operation that makes sense only after an operation of another kind or, if `later` is True, only before an
-    operation of that kind.
+    """A rule for the order of operations: an operation of the kind `of` makes sense only after an operation of the
+    kind `needs`. If `later` is True, it makes sense only before an operation of the kind `needs`.
     """
 
     code: str
@@ -321,8 +321,8 @@ def stale_rounds(graph: Graph) -> Iterator[StaleRound]:
 def _anew(
     graph: Graph, circles: Circles, jump: int, target: int | None, begins: set[int]
 ) -> Iterator[StaleRound]:
-    """Yield the jump back if it restarts the search or count in every round. If another path leads from `target` to
-    the end of the program, or back to the jump, yield nothing.
+    """Yield the jump that repeats a round, if every round restarts the search or count. Yield nothing if a path
+    without a restart leads from `target` to the end of the program, or back to the jump.
     """
     if graph.leads(target, None, without=begins) or graph.leads(target, jump, without=begins):
         return

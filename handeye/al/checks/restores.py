@@ -50,7 +50,9 @@ def check_restores(lowered: Lowered, graph: Graph) -> Iterator[Diagnostic]:
 
 
 def _follows(graph: Graph, move: int, name: str) -> bool:
-    """Return True if the difference is saved relative to the goal of this MOVE, before the next MOVE."""
+    """Return True if the difference `name` is saved after this MOVE and before the next one, so relative to the goal
+    of this MOVE.
+    """
     seen: set[int] = set()
     waiting = list(graph.onward[move])
     while waiting:

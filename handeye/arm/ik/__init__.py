@@ -1,6 +1,6 @@
 """Inverse kinematics: joint positions for a hand pose, or the reason why there are none.
 
-Each kind of arm structure has its own solver. The functions here call the solver of the given arm.
+Each kind of arm structure has its own solver. The functions of this module call the solver of the given arm.
 """
 
 from collections.abc import Mapping

@@ -89,7 +89,9 @@ def _wrist(arm: ArmModel, b: _Build, M: Array, flip: float, left: float) -> Arra
 
 
 def solve(arm: ArmModel, X_WT: Pose, near: Array) -> IKResult:
-    """Find the best branch. If there is none, find the failure of the joint that is farthest beyond its limits."""
+    """Find the best branch within the joint limits. If no branch is within the limits, return the failure of the joint
+    that is farthest beyond its limits.
+    """
     b, start = _build(arm), near.copy()
     start[b.held] = b.held_at
     here = near.tolist()
@@ -102,8 +104,8 @@ def solve(arm: ArmModel, X_WT: Pose, near: Array) -> IKResult:
 
 
 def _ways(arm: ArmModel, q: list[float]) -> list[list[float]]:
-    """Return the given configuration. If both roll axes are in line, return all configurations within the limits that
-    divide the common turn between the two joints.
+    """Return the given configuration. If the first and last wrist axes are in line, return all configurations within
+    the limits that divide the turn between these two joints in different ways.
     """
     if abs(math.sin(q[-2])) >= _COLLINEAR:
         return [q]

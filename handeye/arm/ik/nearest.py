@@ -1,9 +1,9 @@
 """For a pose that is out of reach only because its numbers are rounded, finds the nearest configuration within the
 joint limits.
 
-If a pose at the edge of reach is written with few digits, or computed from joints at their limits, it may have no
-exact solution. This search finds a configuration whose hand pose agrees with the given pose to within the rounding
-of its digits.
+If a pose at the edge of reach is written with few digits, or computed from joints at their limits, no configuration
+may reach the pose exactly. This search finds a configuration whose hand pose agrees with the given pose to within the
+rounding of the given numbers.
 """
 
 from collections.abc import Iterable
@@ -27,9 +27,9 @@ def nearest_within(arm: ArmModel, X_WT: Pose, starts: Iterable[Array]) -> Array 
     """Find joint positions within the limits that bring the hand to within `WRITTEN` of a pose. Returns None if there
     are no such positions.
 
-    The first search begins at the solutions in `starts`; a second search begins slightly beside each of them. The
-    second search is needed for a solution in which joint axes are in line: from there, no first step leads towards
-    some of the nearby poses.
+    The first search begins at the solutions in `starts`. A second search begins at configurations that differ slightly
+    from these solutions. The second search is needed for a solution in which joint axes are in line: from there, no
+    first step leads towards some of the nearby poses.
     """
     turn = np.where(constants(arm).prismatic, 0.0, 2 * np.pi)
     turned = [q - turn * np.round((q - arm.middle) / (2 * np.pi)) for q in starts]
@@ -43,8 +43,8 @@ def nearest_within(arm: ArmModel, X_WT: Pose, starts: Iterable[Array]) -> Array 
 
 
 def _nearest(arm: ArmModel, X_WT: Pose, q: Array) -> tuple[float, Array]:
-    """Bring the hand towards the pose by Gauss-Newton steps within the joint limits. Returns the least distance
-    from the pose, in multiples of `WRITTEN`, and the configuration.
+    """Bring the hand towards the pose by Gauss-Newton steps within the joint limits. Returns the least distance from
+    the pose, in multiples of `WRITTEN`, and the configuration that has this distance.
     """
     best = (np.inf, q)
     for _ in range(_STEPS):

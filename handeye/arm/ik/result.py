@@ -66,7 +66,7 @@ def shared(first: Joint, last: Joint, sense: float, one: float, other: float) ->
 
     If `sense` is positive, both joints turn the hand in the same direction; otherwise, in opposite directions. There
     is one pair for each possible number of whole turns. The first joint stays at the position `one` if the last joint
-    can do the rest.
+    can do the rest of the turn.
     """
     sign, ends, found = math.copysign(1.0, sense), (last.lower, last.upper), []
     turns = math.ceil((first.upper - first.lower + last.upper - last.lower) / (2 * math.pi))
@@ -85,8 +85,8 @@ def _inside(joint: Joint, x: float) -> bool:
 
 
 def _fault(arm: ArmModel, q: list[float]) -> tuple[float, IKResult]:
-    """Return the failure of the joint that is farthest beyond its limit, and the time in which this joint would travel
-    from there to its limit. Prismatic joints come first, because no other branch avoids their failures.
+    """Return the failure of the joint that is farthest beyond its limit, and the time that this joint would take to
+    travel back to its limit. A failure of a prismatic joint is preferred, because no other branch avoids it.
     """
     outside = [(i, j, x) for i, (j, x) in enumerate(zip(arm.joints, q, strict=True)) if not _inside(j, x)]
     excess = [(j.kind == "prismatic", max(x - j.upper, j.lower - x) / j.speed) for _, j, x in outside]

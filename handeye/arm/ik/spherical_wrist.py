@@ -63,8 +63,9 @@ def branches(arm: ArmModel, X_WT: Pose, start: Array | None) -> tuple[Array, NDA
 
 
 def solve(arm: ArmModel, X_WT: Pose, near: Array) -> IKResult:
-    """Find the best branch. If there is none, find the failure: the wrist is too near to axis 1, or a joint is beyond
-    its limits. If several joints are beyond their limits, the failure names the joint that is farthest beyond.
+    """Find the best branch within the joint limits. If there is no such branch, return the failure: the wrist is too
+    near to axis 1, or a joint is beyond its limits. If several joints are beyond their limits, the failure names the
+    joint that is farthest beyond.
     """
     _check(arm)
     rows = (constants(arm).X_BW @ X_WT)[:3].tolist()
@@ -94,8 +95,8 @@ def rates(arm: ArmModel, q: Array, J: Array, V: Array) -> Array:
 
 
 def _scalar_branches(arm: ArmModel, rows: Any, w: Any, near: list[float]) -> list[list[float]]:
-    """Return the `branches` of one pose, in Python floats. For each joint, whole turns are added so that its position
-    is within its limits and nearest to `near`.
+    """Return the branches that `branches` finds for one pose, as Python floats. For each joint, whole turns are added
+    so that its position is within its limits and nearest to `near`.
     """
     found = []
     for side in (1.0, -1.0):

@@ -46,8 +46,8 @@ def _joint(
     brake: float,
     wrist: float = 0.0,
 ) -> Joint:
-    """Make a joint from published values. `wrist` is the position, along z of our frame, of the origin of the
-    published frame, in m.
+    """Make a joint from published values. `wrist` is the z coordinate (m), in our frame, of the origin of the
+    published frame.
     """
     speed, acceleration, effort = drive
     x, y, z = centre
