@@ -71,6 +71,10 @@ def _add_room(shaper: Shaper) -> None:
     body.add_light(pos=[0.2, 0.4, 2.0], dir=[0.3, 0.4, -1.0])
     table = shaper.box(body, "solid", (0, 0, -d("table.thickness")), (width, depth, 0), "table", "table")
     table.group = SEEN
+    shaper.spec.add_texture(
+        name="backdrop", type=mujoco.mjtTexture.mjTEXTURE_SKYBOX, builtin=mujoco.mjtBuiltin.mjBUILTIN_GRADIENT,
+        rgb1=[0.38, 0.38, 0.37], rgb2=[0.16, 0.16, 0.17], width=256, height=256,
+    )  # fmt: skip
 
 
 def _add_plate(shaper: Shaper, world: InsertionWorld) -> None:
