@@ -10,7 +10,7 @@ import numpy as np
 from handeye.core.pose import Array
 
 Colour = tuple[float, float, float]
-LAMP: Final = "studio/lamp"
+LAMP: Final = "studio_lamp"
 """Numeric field of a scene that gives the place of the lamp for photographs, in W (m)."""
 CUTOFF: Final = 75.0  # half of the angle of the lamp's cone, degrees
 SHADOWED: Final = 0.5

@@ -32,7 +32,7 @@ SCENE = """
     <camera name="front" pos=".9 -.9 .6" xyaxes="1 1 0 -.45 .45 1"/>
   </worldbody>
 </mujoco>"""
-STATED = '<numeric name="studio/lamp" data=".5 -1.0 2.0"/>'
+STATED = '<numeric name="studio_lamp" data=".5 -1.0 2.0"/>'
 SIZE = (64, 48)
 
 
