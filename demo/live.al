@@ -1,5 +1,5 @@
 ; The arm goes round above the table, feels for it at four places, and shuts and opens its hand.
-; No pictures are taken, so nothing has to be calibrated: `handeye view --demo`.
+; No pictures are taken, so nothing has to be calibrated: `handeye plan live.al -o live.plan.json`, then `handeye view`.
 TRANS   NEAR_LEFT [20 32 3 90 90 0]
 TRANS   NEAR_RIGHT [30 32 3 90 90 0]
 TRANS   FAR_RIGHT [30 40 3 90 90 0]

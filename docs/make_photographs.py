@@ -49,7 +49,7 @@ def make(trace: "handeye.Trace") -> None:
             bgr = np.ascontiguousarray(picture[:, :, ::-1])
             cv2.imwrite(str(PICTURES / f"{name}.webp"), bgr, [cv2.IMWRITE_WEBP_QUALITY, QUALITY])
     page = PAGE.read_text(encoding="utf-8")
-    PAGE.write_text(re.sub(r"(--at|head\.time \+) [\d.]+", rf"\1 {moment}", page), encoding="utf-8")
+    PAGE.write_text(re.sub(r"(--at |trace\.frame\()[\d.]+", rf"\g<1>{moment}", page), encoding="utf-8")
 
 
 if __name__ == "__main__":

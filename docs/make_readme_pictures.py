@@ -20,6 +20,7 @@ import numpy as np
 ROOT = Path(__file__).parent.parent
 sys.path[:0] = [str(ROOT), str(ROOT / "docs"), str(ROOT / "tests" / "support")]
 
+import make_film  # noqa: E402
 from make_trials import FOLDER, read  # noqa: E402
 from pygments.token import Comment, Keyword, Name, Token  # noqa: E402
 
@@ -117,14 +118,6 @@ def senses() -> str:
     return "\n".join([*rows, "</svg>\n"])
 
 
-def film() -> None:
-    """The whole run, from nearby."""
-    handeye.open(demo() / "trace.mcap").video(
-        PICTURES / "assembly.webp", camera="follow", captions=True, seconds=18, width=520, height=390,
-        overwrite=True,
-    )  # fmt: skip
-
-
 def replay() -> np.ndarray:
     """The player of a report, next to the program."""
     from make_report_picture import screenshot
@@ -142,7 +135,7 @@ def replay() -> np.ndarray:
 if __name__ == "__main__":
     for name in sys.argv[1:] or ("film", "program", "senses", "replay"):
         if name == "film":
-            film()
+            make_film.make(handeye.open(demo() / "trace.mcap"))
         elif name == "replay":
             cv2.imwrite(str(PICTURES / "replay.webp"), replay(), [cv2.IMWRITE_WEBP_QUALITY, 85])
         else:

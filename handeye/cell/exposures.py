@@ -102,7 +102,7 @@ class Lens:
         return float(_NEAR * _FAR / (_FAR - np.median(depth[rows, columns]) * (_FAR - _NEAR)))
 
 
-USUAL: Final = 24
+USUAL: Final = 48
 MOST: Final = 1000
 _SHADOW: Final = 2048  # points along a side of the map of shadows: their edges are averaged
 _TURN: Final = np.pi * (3 - np.sqrt(5))  # golden angle: from one point of a spiral to the next
@@ -184,7 +184,7 @@ def fine_photograph(
     for number, exposure in enumerate(_exposures(how.exposures), 1):
         told(number, how.exposures)
         lens.aim(scene, exposure.lens, exposure.shift)
-        stock.lighting.throw(scene, model, exposure.lamp, exposure.sky)
+        stock.lighting.throw(scene, model, exposure.lamp, exposure.sky, exposure.shift)
         light += _LIGHT[photographer.exposed()]
     return stock.develop(light.astype(float) / how.exposures)
 

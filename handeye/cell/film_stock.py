@@ -1,71 +1,15 @@
 """Films: each is used with its own lighting, and converts light to a picture in its own way."""
 
-import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Final
 
 import cv2
-import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from handeye.cell.lighting import Lighting
 from handeye.core.pose import Array
-
-Colour = tuple[float, float, float]
-_AWAY: Final = 2.0  # distance of the sky from the middle of the scene, divided by the size of the scene
-_GRAZING: Final = 0.2  # least height of a point of the sky, divided by its distance
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Lighting:
-    """The lighting of a photograph: a lamp in the form of a disc, and a sky."""
-
-    lamp: Colour
-    gloss: float  # share of the lamp that shiny shapes mirror
-    sky: Colour
-    everywhere: Colour  # light that throws no shadow
-    stand: tuple[float, float, float]  # place of the lamp from the middle of the scene, in sizes of the scene
-    radius: float  # radius of the lamp's disc, in m
-    cutoff: float = 48.0  # half of the angle of the lamp's cone, degrees
-
-    def throw(self, scene: mujoco.MjvScene, model: mujoco.MjModel, lamp: Array, sky: Array) -> None:
-        """Light a scene from one point of the lamp and one point of the sky, each of shape (2,). The point of the lamp
-        is given in radii of the lamp's disc. The point of the sky is given by the x and y of the unit vector towards
-        it.
-        """
-        middle = np.array(model.stat.center)
-        scene.nlight = 2
-        self._lamp(scene.lights[0], middle, model.stat.extent, lamp)
-        self._sky(scene.lights[1], middle, model.stat.extent, sky)
-
-    def _lamp(self, light: mujoco.MjvLight, middle: Array, extent: float, at: Array) -> None:
-        stand = middle + extent * np.array(self.stand)
-        axis = _unit(middle - stand)
-        right = _unit(np.cross(axis, (0.0, 0.0, 1.0)))
-        place = stand + self.radius * (at[0] * right + at[1] * np.cross(right, axis))
-        light.type, light.cutoff, light.exponent = mujoco.mjtLightType.mjLIGHT_SPOT, self.cutoff, 1.0
-        light.diffuse[:], light.ambient[:] = self.lamp, self.everywhere
-        light.specular[:] = self.gloss * np.array(self.lamp)
-        _place(light, 0, place, middle - place)
-
-    def _sky(self, light: mujoco.MjvLight, middle: Array, extent: float, at: Array) -> None:
-        high = math.sqrt(max(_GRAZING**2, 1.0 - float(at @ at)))
-        towards = _unit(np.array([*at, high]))
-        light.type = mujoco.mjtLightType.mjLIGHT_DIRECTIONAL
-        light.diffuse[:], light.ambient[:] = self.sky, 0.0
-        light.specular[:] = self.gloss * np.array(self.sky)
-        _place(light, 1, middle + _AWAY * extent * towards, -towards)
-
-
-def _place(light: mujoco.MjvLight, number: int, place: Array, way: Array) -> None:
-    light.id, light.texid, light.headlight, light.castshadow = number, -1, 0, 1
-    light.pos[:], light.dir[:], light.attenuation[:] = place, _unit(way), (1.0, 0.0, 0.0)
-
-
-def _unit(vector: Array) -> Array:
-    return np.asarray(vector / np.linalg.norm(vector))
-
 
 GAMMA: Final = 2.2  # light is the value of a point of the screen to this power
 _SEED: Final = 1973
@@ -124,8 +68,8 @@ def _grain(height: int, width: int) -> Array:
 FILMS: Final[Mapping[str, FilmStock]] = {
     "colour": FilmStock(
         lighting=Lighting(
-            lamp=(0.76, 0.69, 0.59), gloss=0.55, sky=(0.44, 0.47, 0.52), everywhere=(0.29, 0.295, 0.31),
-            stand=(0.9, -0.95, 0.9), radius=0.12,
+            lamp=(0.68, 0.635, 0.56), gloss=0.5, sky=(0.34, 0.37, 0.42), everywhere=(0.17, 0.175, 0.185),
+            radius=0.06,
         ),
         developed=lambda light: _contrast(_on_screen(light, 3.1), 0.35),
     ),
@@ -138,3 +82,11 @@ FILMS: Final[Mapping[str, FilmStock]] = {
     ),
 }  # fmt: skip
 """Films by name."""
+PLAIN: Final = Lighting(
+    lamp=(0.68, 0.635, 0.56), gloss=0.5, sky=(0.22, 0.24, 0.27), everywhere=(0.22, 0.225, 0.235), radius=0.0
+)
+"""Lighting of a photograph of one exposure. The sky is weaker, because it casts no shadows."""
+TONES: Final = np.rint(
+    255 * np.clip(FILMS["colour"].developed((np.arange(256) / 255) ** GAMMA), 0, 1)
+).astype(np.uint8)
+"""Value of a point on colour film for each of the 256 values of a point of the screen."""

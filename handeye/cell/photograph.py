@@ -9,6 +9,8 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from handeye.cell.film_stock import PLAIN, TONES
+from handeye.cell.lighting import SHADOWED, SKY_SHADOWED, lamp_place
 from handeye.cell.opengl import MOST_GEOMS, context, drawing
 from handeye.core.errors import BadArgument, NoSuchName
 from handeye.core.files import Kind
@@ -48,6 +50,7 @@ class Photographer:
         """
         _, self._gl = context()
         self._drawing = drawing(scene, {"shadowsize": shadow, "offsamples": samples}, width, height)
+        self._drawing.shadowScale, self._drawing.shadowClip = SHADOWED, SKY_SHADOWED * scene.stat.extent
         self._viewport = mujoco.MjrRect(0, 0, width, height)
         self._scene = mujoco.MjvScene(scene, maxgeom=MOST_GEOMS)
         self._option = mujoco.MjvOption()
@@ -55,11 +58,15 @@ class Photographer:
         self._option.sitegroup[:] = 0
 
     def take(self, model: mujoco.MjModel, data: mujoco.MjData, view: str | Near) -> Photograph:
-        """Take a photograph of the scene, or of a copy of the scene with other groups visible. Raises InvalidInput
-        if there is no such camera.
+        """Take a photograph of the scene, or of a copy of the scene with other groups visible. If the scene states
+        the place of a lamp for photographs, that lamp lights the photograph. Raises InvalidInput if there is no such
+        camera.
         """
         self.aimed(model, data, view)
-        return self.exposed()
+        if lamp_place(model) is None:
+            return self.exposed()
+        PLAIN.throw_once(self._scene, model)
+        return np.asarray(cv2.LUT(self.exposed(), TONES), dtype=np.uint8)
 
     def aimed(self, model: mujoco.MjModel, data: mujoco.MjData, view: str | Near) -> mujoco.MjvScene:
         """Return the shapes, camera and lights of a view. The caller may change the shapes, camera and lights before

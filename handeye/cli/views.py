@@ -33,7 +33,7 @@ def view(
     demo: Annotated[
         bool,
         Parameter(
-            negative="", help="Run a short program included with handeye; this program takes no pictures."
+            negative="", help="Insert a pin into a hole, in real time; this program takes no pictures."
         ),
     ] = False,
     teach: Annotated[
@@ -81,7 +81,7 @@ def view(
         return _play(newest, port)
     link = Link()
     with Server(link, port) as server:
-        plan = compiled(resources.demo() / "live.al") if demo else plan_or_own(file, world.task)
+        plan = compiled(resources.plans() / "insertion.al") if demo else plan_or_own(file, world.task)
         world = world.of(plan.task)
         setup = Setup(plan=plan, world=broken(world.spec, fault, world.work, plan.program), camera=camera)
         for line in DEMO if demo else ():

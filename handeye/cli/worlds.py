@@ -48,7 +48,7 @@ class FineOptions:
         ),
     ] = None
     exposures: Annotated[
-        WholeNumber | None, Parameter(help="Number of exposures. Default: 24. Implies `--fine`.")
+        WholeNumber | None, Parameter(help="Number of exposures. Default: 48. Implies `--fine`.")
     ] = None
 
     def take(self, posed: "Posed", camera: str, width: int, height: int) -> "Photograph":

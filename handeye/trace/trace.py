@@ -189,7 +189,7 @@ class Trace:
             fine: average many exposures with special lighting, which gives soft shadows, depth of field and
                 smooth edges.
             film: film of a fine photograph: `"colour"`, or `"1973"` for black and white.
-            exposures: number of exposures of a fine photograph, 24 by default. Giving `exposures` or `film`
+            exposures: number of exposures of a fine photograph, 48 by default. Giving `exposures` or `film`
                 implies
                 `fine`.
 

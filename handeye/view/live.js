@@ -49,7 +49,8 @@ const live = (() => {
       const pose = Array.from(numbers.subarray(at, at += 7));
       if (pose[2] >= facts.lowest) poses.set(body, pose); else poses.delete(body);
     }
-    byId("figures").textContent = [`${time.toFixed(2)} s`, ...felt(gap, force), ...shown(sensed)].join(", ");
+    byId("figures").textContent = [`${time.toFixed(2)} s`, ...place(), ...felt(gap, force), ...shown(sensed)].join(", ");
+    if (facts.axes.length === facts.joints) turn(numbers.subarray(facts.figures, facts.figures + facts.joints));
     if (player) push(time, force);
     player?.at(time);
   }
@@ -57,6 +58,39 @@ const live = (() => {
   /** Draw an arrow for the force of the hand on its surroundings, in N. */
   function push(time, force) {
     player.senses.feel(time, force.some(Number.isNaN) ? null : force);
+  }
+
+  /** Show the place of the hand, in inches. */
+  function place() {
+    const [tool] = facts.tools, pose = tool && poses.get(tool.body);
+    if (!pose) return [];
+    const [x, y, z, w, ...v] = pose, at = tool.at;
+    const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+    const t = cross(v, at).map((n) => 2 * n), u = cross(v, t);
+    const hand = [x, y, z].map((n, k) => ((n + at[k] + w * t[k] + u[k]) / 0.0254).toFixed(2));
+    return [`hand at (${hand.join(", ")}) in`];
+  }
+
+  /** Show each joint between its limits. Near a limit, the joint is marked. */
+  function turn(joints) {
+    const list = byId("axes");
+    list.hidden = joints.some(Number.isNaN); // until the arm first moves
+    if (list.hidden) return;
+    if (!list.children.length) list.append(...facts.axes.map(axisRow));
+    facts.axes.forEach(([, unit, size, lower, upper], number) => {
+      const value = joints[number] / size, share = (value - lower) / (upper - lower), row = list.children[number];
+      row.children[1].textContent = `${value.toFixed(1)} ${unit}`;
+      row.children[2].firstChild.style.left = `${100 * Math.min(Math.max(share, 0), 1)}%`;
+      row.classList.toggle("near", share < 0.05 || share > 0.95);
+    });
+  }
+
+  function axisRow([name, unit, , lower, upper]) {
+    const row = document.createElement("li"), bar = document.createElement("span");
+    const told = [`${name}, ${lower.toFixed(0)} to ${upper.toFixed(0)} ${unit}`, ""];
+    row.append(...told.map((textContent) => Object.assign(document.createElement("span"), { textContent })), bar);
+    bar.append(document.createElement("i"));
+    return row;
   }
 
   function shown(sensed) {

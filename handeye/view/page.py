@@ -9,7 +9,9 @@ from typing import Any, Final
 
 import numpy as np
 
+from handeye.arm.model import ArmModel
 from handeye.core.markup import Markup, PagePart, element, region
+from handeye.core.units import DEGREE, INCH
 from handeye.report import player
 from handeye.report.page.document import head, packed, resource
 from handeye.report.page.moments import json_markup
@@ -53,6 +55,7 @@ def live_page(runner: Runner, newest: Newest, face: Face) -> bytes:
         "figures": FIGURES,
         "joints": len(newest.frames.joints),
         "channels": [(name, unit, name not in shown) for name, unit in newest.parts],
+        "axes": _axes(runner),
         "lowest": 0.0 if model is None else scene.lowest(model),
         "tools": []
         if model is None or runner.task.force_axes != AnyTask.force_axes
@@ -107,6 +110,7 @@ def _viewer(face: Face, *, seen: bool) -> Markup:
         aria_label="the live cell; the arrow keys turn the view, and the keys + and - zoom",
     )  # fmt: skip
     figures = element("p", id="figures", class_="caption")
+    axes = element("ul", id="axes", aria_label="joints of the arm, between their limits", hidden=True)
     views = element("div", id="views", role="group", aria_label="view", class_="views")
     senses = element("canvas", id="senses", class_="senses", aria_hidden="true")
     view = (
@@ -118,6 +122,7 @@ def _viewer(face: Face, *, seen: bool) -> Markup:
         "div",
         *view,
         figures,
+        axes,
         *([views] if seen else []),
         *face.controls,
         _talk(face.listener),
@@ -131,6 +136,20 @@ def _talk(listener: str) -> Markup:
     line = element("input", id="line", type="text", maxlength="1000", aria_label=label, autocomplete="off")
     say = element("button", "Send", type="submit")
     return element("div", told, element("form", line, say, id="form"), class_="talk")
+
+
+def _axes(runner: Runner) -> list[tuple[str, str, float, float, float]]:
+    """Return the name of each joint, its unit, the SI value of this unit, and its limits in this unit; empty if the
+    task does not describe its arm.
+    """
+    arm = getattr(runner.task, "arm", None)
+    if not isinstance(arm, ArmModel):
+        return []
+    units = {"revolute": ("°", DEGREE), "prismatic": ("in", INCH)}
+    return [
+        (joint.name, *(unit := units[joint.kind]), joint.lower / unit[1], joint.upper / unit[1])
+        for joint in arm.joints
+    ]
 
 
 def _first_tracks(names: tuple[str, ...], poses: Poses) -> bytes:

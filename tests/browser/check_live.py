@@ -80,7 +80,7 @@ def type_in(page: Page, line: str) -> None:
 def test_a_run_is_driven_from_a_page(browser: Browser, tmp_path: Path) -> None:
     with served(tmp_path, "--demo") as address:
         page = opened(browser, address)
-        page.wait(f"/12 MOVE NEAR_LEFT/.test({TOLD})")
+        page.wait(f"/9 MOVE PIN/.test({TOLD})")
         press(page, "Step")
         page.wait(f"/`step` was ignored/.test({TOLD})")
         press(page, "Pause")
@@ -90,17 +90,18 @@ def test_a_run_is_driven_from_a_page(browser: Browser, tmp_path: Path) -> None:
         page.wait(f"{HERE} !== '{before}'")
         press(page, "Back")
         page.wait(f"/1 step undone/.test({TOLD}) && {HERE} === '{before}'")
-        page.evaluate("document.getElementById('line-0-26').click()")
-        page.wait("document.getElementById('line-0-26').classList.contains('break')")
+        page.evaluate("document.getElementById('line-0-19').click()")
+        page.wait("document.getElementById('line-0-19').classList.contains('break')")
         type_in(page, "pace free")
         press(page, "Run")
-        page.wait(f"/breakpoint at line 26/.test({TOLD})")
-        assert page.evaluate(HERE) == "line-0-26"
-        page.evaluate("document.getElementById('line-0-26').click()")
+        page.wait(f"/breakpoint at line 19/.test({TOLD})")
+        assert page.evaluate(HERE) == "line-0-19"
+        page.evaluate("document.getElementById('line-0-19').click()")
         page.wait("!document.querySelector('li.break')")
         type_in(page, "pace 1x")
         press(page, "Run")
-        page.wait(f"({TOLD}.match(/26 CHANGE/g) || []).length > 0 && !/panic/.test({TOLD})")
+        page.wait(f"({TOLD}.match(/19 CHANGE/g) || []).length > 0 && !/panic/.test({TOLD})")
+        assert page.evaluate("document.querySelectorAll('#axes li').length") == 6
         press(page, "Panic")
         page.wait(f"/stopped by the panic button/.test({TOLD})")
         (tmp_path / "live.png").write_bytes(page.screenshot())
@@ -198,4 +199,4 @@ def test_a_run_that_was_carried_out_plays(browser: Browser, tmp_path: Path) -> N
 
 
 def test_the_demo_takes_no_pictures() -> None:
-    assert "PICTURE" not in (resources.demo() / "live.al").read_text().upper().replace("NO PICTURES", "")
+    assert "PICTURE" not in (resources.plans() / "insertion.al").read_text().upper()

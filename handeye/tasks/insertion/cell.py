@@ -66,11 +66,15 @@ def build(world: InsertionWorld) -> mujoco.MjModel:
 def _add_room(shaper: Shaper) -> None:
     d, body = dimensions(), shaper.spec.worldbody
     width, depth = d.all("table.size")
-    eye, at = np.array([2.1, 1.8, 1.0]), np.array([0.52, 0.72, 0.15])
-    add_camera(shaper.spec, "studio", eye, at).fovy = 37.0
+    eye, at = np.array([1.95, 1.8, 0.9]), np.array([0.54, 0.76, 0.20])
+    add_camera(shaper.spec, "studio", eye, at).fovy = 33.0
     body.add_light(pos=[0.2, 0.4, 2.0], dir=[0.3, 0.4, -1.0])
     table = shaper.box(body, "solid", (0, 0, -d("table.thickness")), (width, depth, 0), "table", "table")
     table.group = SEEN
+    shaper.spec.add_texture(
+        name="backdrop", type=mujoco.mjtTexture.mjTEXTURE_SKYBOX, builtin=mujoco.mjtBuiltin.mjBUILTIN_GRADIENT,
+        rgb1=[0.38, 0.38, 0.37], rgb2=[0.16, 0.16, 0.17], width=256, height=256,
+    )  # fmt: skip
 
 
 def _add_plate(shaper: Shaper, world: InsertionWorld) -> None:

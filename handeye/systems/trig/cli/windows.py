@@ -11,18 +11,19 @@ from prompt_toolkit.formatted_text import StyleAndTextTuples
 from prompt_toolkit.history import InMemoryHistory
 from prompt_toolkit.input import Input
 from prompt_toolkit.key_binding import KeyBindings, KeyPressEvent
-from prompt_toolkit.layout import Container, Dimension, HSplit, Layout, Window
+from prompt_toolkit.layout import ConditionalContainer, Container, Dimension, HSplit, Layout, VSplit, Window
 from prompt_toolkit.layout.controls import FormattedTextControl
 from prompt_toolkit.output import Output
 from prompt_toolkit.styles import Style
 from prompt_toolkit.widgets import TextArea
 
 from handeye.core.plain_text import counted, printable
+from handeye.systems.trig.cli.table_view import WIDTH, table_view
 from handeye.systems.trig.language.command_table import COMMANDS
 from handeye.systems.trig.language.display import full_display, partial_display
 from handeye.systems.trig.language.place import is_named, told_place
 from handeye.systems.trig.language.session import Session
-from handeye.systems.trig.language.styled import Line, symbols_for
+from handeye.systems.trig.language.styled import Line, Symbols, fitted, symbols_for
 
 if TYPE_CHECKING:
     from handeye.systems.trig.cli.screen import Screen
@@ -33,7 +34,7 @@ JOGS: Final = {
     "x": (0, -1), "X": (0, 1), "y": (1, -1), "Y": (1, 1), "z": (2, -1), "Z": (2, 1),
     "r": (3, -1), "R": (3, 1), "p": (4, -1), "P": (4, 1), "w": (5, -1), "W": (5, 1),
 }  # fmt: skip
-BOX_HELP: Final = "xXyYzZrRpPwW or ←→↓↑PgDnPgUp: drive   Enter: record   k: kill   +-:"
+BOX_HELP: Final = "xXyYzZrRpPwW or ←→↓↑PgDnPgUp: drive   Enter: record   k: kill   + -: step"
 LINE_HELP: Final = "HELP: commands   Tab: complete   Ctrl-C: clear the line   Q or Ctrl-D: leave"
 BUSY_HELP: Final = "any key stops the arm"
 PAGE_HELP: Final = "PgUp PgDn: scroll   any line: close"
@@ -103,6 +104,14 @@ STYLE: Final = Style.from_dict(
 FULL_ROWS: Final = 5  # of the full display, at most
 EDITOR_ROWS: Final = 5  # of input and answers, at most
 DRIVE: Final = "Drive the arm to the place, and record it. "
+WIDE: Final = 110  # columns from which the arm and its table are drawn beside the partial display
+HINTS: Final = (
+    ("M CENTER", "drive the arm to a place, and record it"),
+    ("GRASP", "close the hand on a block; UNGRASP opens it"),
+    ("RUN -1", "undo the last step; RUN 1 runs it again"),
+    ("HELP", "list all commands; HELP M explains M"),
+)
+"""What to type into an empty program, and what it does."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -113,6 +122,8 @@ class Picture:
     partial: list[Line]
     count: int
     arm: str
+    table: list[Line]
+    """The arm and its table; empty on a narrow terminal."""
 
 
 def pictured(session: Session, size: tuple[int, int]) -> Picture:
@@ -121,13 +132,37 @@ def pictured(session: Session, size: tuple[int, int]) -> Picture:
     symbols = symbols_for("utf-8")
     full = full_display(session.program, columns - 2, FULL_ROWS, symbols)
     room = max(1, rows - len(full) - editor_rows(rows) - 6)
-    hand = "closed" if session.arm.closed else "open"
+    here, closed = session.arm.here(), session.arm.closed
+    table = (
+        table_view(here, session.program.positions, symbols, room, closed=closed) if columns >= WIDE else []
+    )
+    free = columns - 2 - (WIDTH + 1 if table else 0)
+    count = sum(node.shown for node in session.program.graph.nodes.values())
+    partial = partial_display(session.program, free, room, symbols)
     return Picture(
         full=full,
-        partial=partial_display(session.program, columns - 2, room, symbols),
-        count=sum(node.shown for node in session.program.graph.nodes.values()),
-        arm=f"arm {told_place(session.arm.here())}   hand {hand}",
+        partial=partial if count else [*partial, *_hints(free, room - len(partial), symbols)],
+        count=count,
+        arm=f"arm {told_place(here)}   hand {'closed' if closed else 'open'}",
+        table=table,
     )
+
+
+def _hints(columns: int, rows: int, symbols: Symbols) -> list[Line]:
+    """Return what a user can type first, and what the signs of the displays mean, in this space."""
+    hints: list[Line] = [[], [("", "The program is empty. Type the first step below. For example:")]]
+    hints += [[("title", f"  {typed:<10}"), ("", told)] for typed, told in HINTS]
+    hints += [
+        [],
+        [
+            ("active", symbols.cursor),
+            ("", " active step   "),
+            ("title", "***"),
+            ("", " step without a name   "),
+        ],
+        [("branch", "n g"), ("", " branch of a guarded step: not tripped, or tripped")],
+    ]
+    return [fitted(line, columns) for line in hints[: max(rows, 0)]]
 
 
 def editor_rows(rows: int) -> int:
@@ -153,7 +188,17 @@ def application(
         _text(
             lambda: _rule("Help", PAGE_HELP, screen) if screen.page else _rule("Partial Display", "", screen),
         ),
-        _text(lambda: _page(screen) if screen.page else _drawn(screen.picture().partial), height=None),
+        VSplit(
+            [
+                _text(
+                    lambda: _page(screen) if screen.page else _drawn(screen.picture().partial), height=None
+                ),
+                ConditionalContainer(
+                    Window(FormattedTextControl(lambda: _drawn(screen.picture().table)), width=WIDTH),
+                    filter=Condition(lambda: bool(screen.picture().table) and not screen.page),
+                ),
+            ]
+        ),
         _text(lambda: _rule("Program Editor", _file(screen.session), screen)),
         _text(lambda: _told(screen), height=lambda: editor_rows(screen.size[1])),
         line,
@@ -204,7 +249,7 @@ def _page(screen: "Screen") -> StyleAndTextTuples:
 
 def _help(screen: "Screen") -> str:
     if screen.mode == "box":
-        return f"{BOX_HELP}   step {STEPS[screen.step]:g}"
+        return f"{BOX_HELP} {STEPS[screen.step]:g}"
     return LINE_HELP if screen.mode == "line" else BUSY_HELP
 
 

@@ -162,7 +162,7 @@ def _add_cameras(spec: mujoco.MjSpec) -> None:
     for name, eye, at, fovy in (
         ("studio", (2.75, 1.95, 1.35), (0.62, 0.66, 0.20), 37.0),
         ("pump", (1.02, 1.42, 0.42), (0.61, 0.965, 0.035), 25.0),
-        ("work", (1.55, 1.75, 0.62), (0.60, 0.93, 0.20), 27.0),
+        ("work", (1.55, 1.75, 0.62), (0.58, 0.91, 0.23), 31.0),
         ("belt", (1.62, 1.35, 0.75), (1.13, 0.75, 0.03), 32.0),
     ):
         add_camera(spec, name, np.array(eye), np.array(at)).fovy = fovy
