@@ -4,9 +4,11 @@ from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
+from msgspec.structs import replace
 from pump_bench import put, settle, stacked
 from relay_bench import CARRY, pin_relay, runner_of, to_end
 
+from handeye.cli.sweeps import SweepOptions
 from handeye.core.errors import BadArgument, NoSuchName
 from handeye.core.pose import translated
 from handeye.judge.finding import at_most
@@ -14,6 +16,8 @@ from handeye.program.events import to_line
 from handeye.results import judging
 from handeye.systems.relay.check import misfits
 from handeye.systems.relay.cli import stages as command
+from handeye.systems.relay.plan import RelayPlan
+from handeye.systems.relay.stages import languages
 from handeye.systems.relay.stages import trials as module
 from handeye.systems.relay.stages.exchange import exchanged
 from handeye.systems.relay.stages.languages import (
@@ -25,11 +29,14 @@ from handeye.systems.relay.stages.languages import (
     stage_legs,
     stages,
 )
-from handeye.systems.relay.stages.trials import STAGES, StageRow, stage_figures
+from handeye.systems.relay.stages.trials import STAGES, StageRow, StageWork, stage_figures
 from handeye.tasks.water_pump.cell import build_cell
 from handeye.tasks.water_pump.task import WATER_PUMP, WaterPump
 from handeye.tasks.water_pump.world.pump_world import PumpWorld
+from handeye.trials import sound_run
 from handeye.trials.figures import figures
+from handeye.trials.folder import read_batch
+from handeye.trials.sweep import Case
 
 PINS, GASKET, TOP = "insert the aligning pins", "put on the gasket", "put on the top"
 
@@ -51,16 +58,16 @@ ROWS = [
 
 
 def test_a_cell_counts_its_outcomes_and_leaves_out_worlds_that_the_careful_program_did_not_reach() -> None:
-    one, other = STAGES.details(ROWS)[0].rows
-    assert (one.accepted, one.n, one.silent, one.stopped, one.median_s) == (4, 4, 0, 0, 50.0)  # type: ignore[attr-defined]
-    assert (other.accepted, other.n, other.silent, other.stopped) == (1, 3, 1, 1)  # type: ignore[attr-defined]
-    assert other.low_share == pytest.approx(0.0615, abs=1e-3)  # type: ignore[attr-defined]  # Wilson, 1 of 3
-    assert (other.median_s, other.most_n) == (60.0, 120.0)  # type: ignore[attr-defined]  # of accepted trials only
+    one, other = STAGES.details(ROWS)[0].cells()
+    assert one == (PINS, "1973", "4", "4", "51.0 %", "100.0 %", "0", "0")
+    assert other == (PINS, "ML", "1", "3", "6.1 %", "79.2 %", "1", "1")
+    costs = STAGES.details(ROWS)[1].cells()
+    assert costs[1] == (PINS, "ML", "60.0 s", "120", "120", "10", "0.0 s")  # of accepted trials only
     assert figures(STAGES, ROWS).exit_code == 3
 
 
 def test_two_languages_are_compared_in_the_worlds_that_both_have_tried() -> None:
-    (pair,) = STAGES.details(ROWS)[1].rows
+    (pair,) = STAGES.details(ROWS)[2].rows
     assert (pair.one, pair.other, pair.pairs) == ("1973", "ML", 3)  # type: ignore[attr-defined]
     assert (pair.only_one, pair.only_other, pair.p) == (2, 0, 0.5)  # type: ignore[attr-defined]
     assert pair.other_takes_s == 10.0  # type: ignore[attr-defined]  # in the one world that both did right
@@ -72,6 +79,7 @@ def test_every_stage_says_which_languages_have_a_leg_and_for_what_the_others_hav
     assert found["find the base"].languages == "1973"
     assert "LOOK" in found["find the base"].without_words.split(", ")
     assert found[PINS].languages == "1973, TRIG, ML, MAL"
+    assert found[PINS].without_words == "CENTER"  # TRIG has no words for RESTORE either, but MAL does
     assert all(each.languages == "1973" for name, each in found.items() if name not in shared())
     assert all(each.without_words for name, each in found.items() if name not in shared())
     with_leg = {(stage, leg.language) for stage in shared() for leg in stage_legs(stage)}
@@ -101,6 +109,37 @@ def test_a_stage_or_language_without_a_leg_is_refused_with_the_reason() -> None:
     with pytest.raises(BadArgument, match="no leg in TRIG"):
         command._chosen(["find the base"], ["TRIG"])
     assert [leg.condition for leg in command._chosen(None, ["TRIG"])] == [f"{PINS}: TRIG"]
+
+
+def test_the_careful_program_runs_only_in_worlds_in_which_a_trial_is_missing(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    prepared: list[int] = []
+
+    def prepare(*given: object, **_: object) -> list[object]:
+        prepared.extend(world.seed for world in given[2])  # type: ignore[attr-defined]
+        return []
+
+    def accept(work: StageWork, case: Case) -> list[StageRow]:
+        leg = work.legs[case.condition]
+        made = row(case.trials[0], leg.language, "accepted")
+        return [replace(made, seed=case.seed, condition=case.condition, of=leg.stage)]
+
+    nothing = RelayPlan(name="none.relay", text="", programs=(), legs=())
+    monkeypatch.setattr(languages, "programs", lambda _: {})
+    monkeypatch.setattr(languages, "relay_of", lambda *_: nothing)
+    monkeypatch.setattr(sound_run, "sound_runs", prepare)
+    monkeypatch.setattr(StageWork, "__call__", accept)
+    options = SweepOptions(out=tmp_path / "stages", jobs=1)
+    for n, only in ((2, ["MAL"]), (3, ["MAL"]), (3, ["MAL", "ML"])):
+        assert (
+            command.stages(language=only, n=n, seed=5, checkpoints=tmp_path, camera="ray", options=options)
+            == 0
+        )  # type: ignore[arg-type]
+    assert prepared == [5, 6, 7, 5, 6, 7]
+    _, kept = read_batch(tmp_path / "stages")
+    assert len(kept) == 3 * (2 + 3)
+    assert f"no leg: {GASKET}, MAL" in capsys.readouterr().out.replace("\n", " ")
 
 
 @pytest.mark.slow

@@ -34,6 +34,7 @@ WITHOUT_LEG: Final = {
     ("put on the top", "TRIG"): f"{_TRIG_HAND}: the hub of the top is 2.2 in wide",
 }  # fmt: skip
 """Why a stage that other languages can do has no leg in a language."""
+_WORD: Final = re.compile(r"\s*(?:\w+:)?\s*(\w+)")  # of an instruction, after its label
 _REMARK: Final = re.compile(r"\s*(;|\*|\d+\s+REM\b)")
 
 
@@ -139,7 +140,7 @@ def limits() -> tuple[StageLimits, ...]:
             for name, system in LANGUAGES.items()
             if (words := leg_system(system).words) is not None
         }
-        names = ({step.text.split(":")[-1].split()[0] for step in each} for each in lacking.values())
+        names = ({_word(step) for step in each} for each in lacking.values())
         found.append(
             StageLimits(
                 stage=stage,
@@ -150,6 +151,12 @@ def limits() -> tuple[StageLimits, ...]:
             )
         )
     return tuple(found)
+
+
+def _word(step: Step) -> str:
+    match = _WORD.match(step.text)
+    assert match is not None
+    return match[1]
 
 
 def _distinct(steps: Iterable[Step]) -> int:

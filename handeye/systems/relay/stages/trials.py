@@ -2,6 +2,7 @@
 does this stage, from the same state, and the referee judges the pump as it is then.
 """
 
+from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations
@@ -90,17 +91,22 @@ class StageWork:
         """Run one trial."""
         leg, world = self.legs[case.condition], replace(self.careful.world, seed=case.seed)
         done = stages().index(leg.stage) + 1
-        made = {
-            "trial": case.trials[0], "seed": case.seed, "condition": case.condition, "of": leg.stage,
-            "language": leg.language, "lines": leg.lines, "plan_cpu_s": self.programs[leg.file].cpu_s,
-        }  # fmt: skip
+        row = StageRow(
+            trial=case.trials[0],
+            seed=case.seed,
+            condition=case.condition,
+            of=leg.stage,
+            language=leg.language,
+            result=NOT_REACHED,
+            lines=leg.lines,
+            plan_cpu_s=self.programs[leg.file].cpu_s,
+        )
         try:
             start = sound_run(self.folder, self.careful, world, None).before(done)
         except Refused:
-            return [StageRow(**made, result=NOT_REACHED)]
-        return [
-            StageRow(**made, **stage_figures(exchanged(start, relay_of(leg, self.programs)), leg.stage, done))
-        ]
+            return [row]
+        relay = relay_of(leg, self.programs)
+        return [replace(row, **stage_figures(exchanged(start, relay), leg.stage, done))]
 
 
 def stage_figures(start: Checkpoint, stage: str, done: int) -> dict[str, object]:
@@ -127,22 +133,28 @@ def stage_figures(start: Checkpoint, stage: str, done: int) -> dict[str, object]
 
 
 class CellLine(Record, frozen=True, kw_only=True):
-    """A stage in one language, over all worlds."""
+    """How often a stage was accepted in one language."""
 
     stage: str
     language: str
     accepted: int
     n: int
-    low_share: float | None
-    rate_share: float | None
+    low_share: float | None  # Wilson's interval, 95 %
     high_share: float | None
     silent: int
     stopped: int
-    median_s: float | None  # of the accepted trials, as the peaks
+
+
+class CostLine(Record, frozen=True, kw_only=True):
+    """What a stage costs in one language, in the accepted trials."""
+
+    stage: str
+    language: str
+    median_s: float | None
     median_n: float | None
     most_n: float | None
     lines: int
-    plan_s: float
+    plan_s: float  # of this computer
 
 
 class PairLine(Record, frozen=True, kw_only=True):
@@ -159,24 +171,36 @@ class PairLine(Record, frozen=True, kw_only=True):
     p_time: float | None
 
 
-def _cells(rows: Sequence[StageRow]) -> Iterator[CellLine]:
+def _tried(rows: Sequence[StageRow]) -> Iterator[list[StageRow]]:
+    """Yield the rows of each stage and language, without the worlds in which the careful program stopped earlier."""
     for condition in dict.fromkeys(row.condition for row in rows):
         mine = [row for row in rows if row.condition == condition and row.result != NOT_REACHED]
-        good = [row for row in mine if row.verdict == "accepted"]
-        if not mine:
-            continue
-        found = rate(len(good), len(mine))
-        low, high = found.wilson95 or (None, None)
+        if mine:
+            yield mine
+
+
+def _cells(rows: Sequence[StageRow]) -> Iterator[CellLine]:
+    for mine in _tried(rows):
+        counts = Counter(STAGES.standing(row) for row in mine)
+        low, high = rate(counts["right"], len(mine)).wilson95 or (None, None)
         yield CellLine(
             stage=mine[0].of,
             language=mine[0].language,
-            accepted=len(good),
+            accepted=counts["right"],
             n=len(mine),
             low_share=low,
-            rate_share=found.rate,
             high_share=high,
-            silent=sum(row.verdict == "silent" for row in mine),
-            stopped=len(mine) - len(good) - sum(row.verdict == "silent" for row in mine),
+            silent=counts["silent"],
+            stopped=counts["wrong"],
+        )
+
+
+def _costs(rows: Sequence[StageRow]) -> Iterator[CostLine]:
+    for mine in _tried(rows):
+        good = [row for row in mine if STAGES.standing(row) == "right"]
+        yield CostLine(
+            stage=mine[0].of,
+            language=mine[0].language,
             median_s=_median([row.arm_s for row in good]),
             median_n=_median([row.peak_n for row in good]),
             most_n=max((row.peak_n for row in good), default=None),
@@ -221,12 +245,14 @@ def _details(rows: Sequence[StageRow]) -> tuple[Details, ...]:
     return (
         Details(
             name="cells", title="Stages by language", rows=[*_cells(rows)],
-            heads=("stage", "language", "accepted", "of", "low", "rate", "high", "silent", "stopped", "median time",
-                   "median peak, N", "greatest peak, N", "lines", "to plan, CPU"),
-            span=("low_share", "rate_share", "high_share"),
+            heads=("stage", "language", "accepted", "of", "low", "high", "silent", "stopped"),
         ),
         Details(
-            name="tests", title="Pairs of languages in the same worlds", rows=[*_tests(rows)],
+            name="costs", title="Time, force and lines", rows=[*_costs(rows)],
+            heads=("stage", "language", "arm, median", "peak, N", "greatest, N", "lines", "to plan"),
+        ),
+        Details(
+            name="pairs", title="Pairs of languages in the same worlds", rows=[*_tests(rows)],
             heads=("stage", "one", "other", "pairs", "only one", "only other", "p", "other longer by", "p of time"),
         ),
         Details(
@@ -240,9 +266,10 @@ def _details(rows: Sequence[StageRow]) -> tuple[Details, ...]:
 def _summary(rows: Sequence[StageRow]) -> list[str]:
     stages_here = {row.of for row in rows}
     return [
-        "Time is the arm's time in the stage, in accepted trials. A peak is the greatest resultant force of all "
-        "contacts on the arm at the end of a servo period; it includes the weight of a held part. p: McNemar's exact "
-        "test; p of time: Wilcoxon's signed-rank test, where both were accepted.",
+        "Low and high: Wilson's interval, 95 %. The arm's time and the peaks are those of accepted trials. A peak is "
+        "the greatest resultant force of all contacts on the arm at the end of a servo period; it includes the weight "
+        "of a held part. To plan: CPU time of this computer to plan, teach or read the whole program. p: McNemar's "
+        "exact test; p of time: Wilcoxon's signed-rank test, where both were accepted.",
         *(
             f"no leg: {stage}, {language}: {why}"
             for (stage, language), why in WITHOUT_LEG.items()
