@@ -30,7 +30,7 @@ COLOURS = 256
 
 def scripts() -> list[Path]:
     """The percent scripts, in order."""
-    return sorted(NOTEBOOKS.glob("*.py"))
+    return sorted(NOTEBOOKS.glob("*.py"), key=lambda path: int(path.name.split("_")[0]))
 
 
 def notebook(script: Path) -> NotebookNode:

@@ -99,6 +99,7 @@ CHEAP = {
     "relay": "relay check ✓.relay",
     "trials chaos": "trials chaos --schedule ✓",
     "trials relay": "trials relay ✓.relay",
+    "trials stages": "trials stages --stage ✓",
     "cache": "cache",
     "bench timing": "bench timing --set ✓",
     "bench insertion": "bench insertion ✓",

@@ -37,6 +37,19 @@ def findings_so_far(runner: Runner) -> Findings:
     return runner.task.judge(runner.cell.truth)
 
 
+def findings_after(runner: Runner, done: int) -> Findings:
+    """Return those findings of the task's referee on the present state of the work that must hold after `done` stages
+    of the task's own program.
+    """
+    task = runner.task
+    found = {
+        name: finding
+        for name, finding in findings_so_far(runner).items()
+        if any(name.startswith(words) and done >= stage for words, stage in task.holds_from.items())
+    }
+    return {**found, **task.judge_between(runner.cell.truth, done)}
+
+
 def checked_findings(referee: str, findings: object) -> Findings:
     """Check what a caller's own referee returned. Raises InvalidInput if the returned value is not a dictionary from
     names to findings.

@@ -145,6 +145,12 @@ class AnyTask(ABC):
     def judge(self, truth: Truth) -> Findings:
         """Return the referee's findings on the finished work. The referee does not change the cell."""
 
+    def judge_between(self, truth: Truth, done: int) -> Findings:
+        """Return the findings that must hold only between two stages: after `done` stages of the task's own program,
+        but not at its end. Empty by default. The referee does not change the cell.
+        """
+        return {}
+
     def judge_apart(self, truth: Truth) -> Findings:
         """Return the referee's findings after the arm has undone all its work; empty by default. The referee
         does not change the cell."""

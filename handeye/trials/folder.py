@@ -170,6 +170,15 @@ def read_batch(path: Path) -> tuple[Head, tuple[Any, ...]]:
     return head, _rows(file, head, sweep_of(head.kind), lines)
 
 
+def kept_trials(path: Path) -> set[tuple[str, int]]:
+    """Return the condition and the number of each finished trial of the batch in a folder. The result is empty if the
+    folder holds no batch.
+    """
+    if not (path / TRIALS).is_file() or not (path / TRIALS).stat().st_size:
+        return set()
+    return {row.key for row in read_batch(path)[1] if not row.to_be_tried_again}
+
+
 def _rows(file: Path, head: Head, sweep: Sweep[R], lines: list[bytes]) -> tuple[R, ...]:
     rows = [_decoded(line, sweep.row, file, number) for number, line in enumerate(lines, 2)]
     for number, row in enumerate(rows, 2):

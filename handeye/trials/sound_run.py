@@ -59,16 +59,22 @@ class SoundRun:
         return self.at(begun[0])
 
 
-def sound_runs(of: Setup, folder: Path, worlds: Sequence[WorldSpec], jobs: int) -> Iterator[SoundRun]:
+def sound_runs(
+    of: Setup, folder: Path, worlds: Sequence[WorldSpec], jobs: int, every: int | None = EVERY
+) -> Iterator[SoundRun]:
     """Yield the fault-free runs of the given worlds, in the order in which they are ready. Runs that the folder does
-    not contain yet are executed now.
+    not contain yet are executed now. For `every` see `sound_run`.
     """
-    yield from in_processes(partial(sound_run, folder, of), worlds, jobs)
+    yield from in_processes(partial(sound_run, folder, of, every=every), worlds, jobs)
 
 
-def sound_run(folder: Path, of: Setup, world: WorldSpec) -> SoundRun:
+def sound_run(folder: Path, of: Setup, world: WorldSpec, every: int | None = EVERY) -> SoundRun:
     """Return the fault-free run of a world. If the folder does not contain this run, the run is executed now. Raises
     InvalidInput if the folder belongs to another setup.
+
+    Args:
+        every: steps from one checkpoint to the next. The state between two stages is always stored; if None, no other
+            states are stored.
     """
     store = CheckpointStore(folder / f"{world.seed}-{world.level}")
     setup = msgspec.structs.replace(of, world=world)
@@ -77,7 +83,7 @@ def sound_run(folder: Path, of: Setup, world: WorldSpec) -> SoundRun:
         store.folder.mkdir(parents=True, exist_ok=True)
         runner = Runner(Checkpoint(setup=setup))
         while not runner.ended:
-            if runner.position % EVERY == 0 or runner.between_stages:
+            if runner.between_stages or (every is not None and runner.position % every == 0):
                 store.save(runner.checkpoint())
             runner.step()
         write_whole(store.folder / _WHOLE, b"")

@@ -11,7 +11,7 @@ from jupyter_core.utils import run_sync
 from nbformat.v4 import new_code_cell
 
 ROOT = Path(__file__).parents[2]
-SCRIPTS = sorted((ROOT / "notebooks").glob("*.py"))
+SCRIPTS = sorted((ROOT / "notebooks").glob("*.py"), key=lambda path: int(path.name.split("_")[0]))
 
 
 def notebook_maker() -> ModuleType:

@@ -2,7 +2,7 @@
 
 The motors have the numbers of the rectilinear arm: 4 is X, 3 is Y, 2 is Z (down), 8 is the roll of a hand that points
 straight down, and 11 is the gap of the fingers. The unit of the slides is .001 inch, and the unit of the roll is .01
-degree. All slides are at 0 where the tool is at x = 20, y = 42 and z = 5 in; at roll 0, the finger line is along Y.
+degree. All slides are at 0 where the tool is at x = 24, y = 42 and z = 5 in; at roll 0, the finger line is along Y.
 Sensors 2 to 4 read the force on the hand along X, Y and Z (up) in grams, and sensors 9 and 10 read the switches of the
 fingers. A cycle takes a servo period of the arm, 1/60 s, instead of 10 ms.
 
@@ -58,7 +58,7 @@ if TYPE_CHECKING:
     from handeye.cell.simulated import SimulatedCell
 
 HAND: Final = 11  # number of the motor of the fingers
-ZERO: Final = (20 * INCH, 42 * INCH, 5 * INCH)  # x, y, z of the tool in W (m) with all slides at 0
+ZERO: Final = (24 * INCH, 42 * INCH, 5 * INCH)  # x, y, z of the tool in W (m) with all slides at 0
 _DOWN: Final = (pi / 2, pi / 2, 0.0)  # O, A, T
 _SLIDE: Final = {"lower": -10_039, "upper": 10_039, "tolerance": 60}
 """Ends of the travel of a slide of the rectilinear arm, and the tolerance of its goals, in thousandths of an inch. The

@@ -79,7 +79,7 @@ def inexpressible(plan: RelayPlan) -> Iterator[LegFinding]:
     """Yield the lines of the task's own program whose operations the language of the leg cannot express. Stages are
     compared by name.
     """
-    program, file = _own_program(plan.task)
+    program, file = own_program(plan.task)
     for leg in legs(plan):
         if leg.system.words is None or leg.stage not in program.stages:
             continue
@@ -106,7 +106,7 @@ def demands(operation: Operation) -> set[str]:
 
 
 @lru_cache(maxsize=2)
-def _own_program(name: str) -> tuple[Program, str]:
+def own_program(name: str) -> tuple[Program, str]:
     """Return the checked program of a task, and the name of its file."""
     from handeye.al import AL
     from handeye.runs.scripts import default_script, taught

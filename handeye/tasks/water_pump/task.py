@@ -27,6 +27,9 @@ if TYPE_CHECKING:
     from handeye.tasks.trial import Trial
 
 
+PINNED: Final = range(4, 9)  # numbers of the stages at whose end the aligning pins stand in the base
+
+
 class WaterPump(Task):
     """Put gasket and top on the base of an automobile water pump, and screw them down."""
 
@@ -111,6 +114,11 @@ class WaterPump(Task):
         from handeye.tasks.water_pump.referee.findings import judge
 
         return judge(truth)
+
+    def judge_between(self, truth: Truth, done: int) -> Findings:
+        from handeye.tasks.water_pump.referee.findings import judge_pins
+
+        return judge_pins(truth) if done in PINNED else {}
 
     def judge_apart(self, truth: Truth) -> Findings:
         from handeye.tasks.water_pump.referee.findings import judge_apart

@@ -22,9 +22,8 @@ from handeye.tasks.stanford_cell.arm import ARM
 from handeye.tasks.water_pump.clamping import WELDS, Clamping, ClampingState, lands_of
 from handeye.tasks.water_pump.referee import limits
 from handeye.tasks.water_pump.referee.commands import commanded
-from handeye.tasks.water_pump.referee.measure import deepest
+from handeye.tasks.water_pump.referee.measure import PINS, deepest
 
-PINS: Final = ("pin0", "pin1")
 PARTS: Final = ("base", "gasket", "top")
 
 Mask = NDArray[np.bool_]

@@ -12,7 +12,8 @@ from handeye.judge.finding import Finding, Findings, at_least, at_most, worse
 from handeye.judge.measured import SettledState, deg, mm, tilt
 from handeye.tasks.stanford_cell.dimensions import dimensions
 from handeye.tasks.water_pump.referee import limits, measure
-from handeye.tasks.water_pump.referee.cell_findings import PARTS, PINS, around, loose_screws, made, resting
+from handeye.tasks.water_pump.referee.cell_findings import PARTS, around, loose_screws, made, resting
+from handeye.tasks.water_pump.referee.measure import PINS
 
 
 def judge(truth: Truth) -> Findings:
@@ -188,6 +189,26 @@ def _turning(settled: SettledState) -> Finding:
         "N m",
         "greatest torque to turn the rotor a full turn, in both directions",
     )
+
+
+def judge_pins(truth: Truth) -> Findings:
+    """Judge whether each aligning pin stands in a hole of the base that is meant for a pin: as the arm left the pins,
+    and again after they have settled. The worse finding counts.
+    """
+    left, settled = _as_left_and_settled(truth)
+    return worse(_pinned(left), _pinned(settled))
+
+
+def _pinned(measured: SettledState) -> Findings:
+    away, lean = measure.pins_away(measured), measure.pins_lean(measured)
+    return {
+        "pins_seated": mm(
+            away,
+            limits.PIN_SEATED,
+            "greatest distance of a pin's shoulder from the mouth of its hole in the base",
+        ),
+        "pins_lean": deg(lean, limits.PIN_LEAN, "greatest tilt of a pin relative to the base"),
+    }
 
 
 def judge_apart(truth: Truth) -> Findings:

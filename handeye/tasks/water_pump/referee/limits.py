@@ -61,6 +61,14 @@ farther.
 """
 
 PIN_PLACE: Final = 3.0  # mm from its place in the holder: the holder's hole and its bevel
+PIN_SEATED: Final = 1.0
+"""Greatest distance (mm) of the middle of a pin's shoulder from the mouth of its hole in the base: the depth of the
+chamfer. A pin that stands in the chamfer, or beside its hole, is at least 19 mm high.
+"""
+PIN_LEAN: Final = 2.0
+"""Greatest tilt (degrees) of a pin in its hole in the base. With .05 mm of play, a nose of 19 mm can tilt by .3
+degrees; the contacts are soft.
+"""
 PIN_TILT: Final = 10.0  # deg: a pin tilted by more leans out of the holder
 RACK_TILT: Final = 5.0
 """Lean of the screwdriver (degrees) that the play of the guides allows. A screwdriver that is out of its guides leans

@@ -3,6 +3,7 @@
 import copy
 from dataclasses import dataclass
 from functools import reduce
+from itertools import permutations
 from math import cos, pi, radians, sin
 from typing import Final
 
@@ -23,6 +24,8 @@ back to the start.
 _BEHIND: Final = radians(2.0)  # lag behind the set-point at which the greatest permitted torque is applied
 _GAIN: Final = ROTOR_TORQUE / _BEHIND  # N m/rad
 _DAMPING: Final = 0.04  # N m s/rad: with the rotor's inertia, there is no overshoot
+
+PINS: Final = ("pin0", "pin1")
 
 BORE = 4 | 512
 FLAT = 16 | 32 | 64 | 128
@@ -74,6 +77,24 @@ def corner_height(measured: SettledState, layer: str, holes: int) -> float:
     corners = np.array([measured.data.site(f"{layer}_hole{k}").xpos for k in range(holes)])
     heights = corners @ X_BW[2, :3] + X_BW[2, 3]
     return float(np.abs(heights - under(layer) - thickness(layer)).max())
+
+
+def pins_away(measured: SettledState) -> float:
+    """Return the greatest distance of the middle of a pin's shoulder from the mouth of its hole in the base (m). Any
+    pin may stand in any of the holes for pins, but no two pins in the same hole.
+    """
+    mouths = [
+        measured.data.site(f"base_hole{int(hole)}").xpos
+        for hole in dimensions().all("base.screw_holes.pinned")
+    ]
+    pins = [measured.pose(name)[:3, 3] for name in PINS]
+    pairs = ([pin - mouth for pin, mouth in zip(pins, order, strict=True)] for order in permutations(mouths))
+    return min(float(np.linalg.norm(ways, axis=1).max()) for ways in pairs)
+
+
+def pins_lean(measured: SettledState) -> float:
+    """Return the greatest angle between a pin and the axis of the base (rad)."""
+    return max(tilt(measured.relative(name, "base")) for name in PINS)
 
 
 def thickness(layer: str) -> float:
