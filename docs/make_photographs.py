@@ -21,7 +21,7 @@ from handeye.program.events import StepStarted  # noqa: E402
 PICTURES = ROOT / "docs" / "pictures"
 PAGE = ROOT / "docs" / "photographs.md"
 WIDTH, HEIGHT = 800, 600
-QUALITY = 90
+QUALITY = 82
 SECOND, AFTER = 2, 0.8
 """Number (from 0) of the TOOL that drives the second screw, and the time (s) from its beginning to the photograph."""
 DRIVING: Final[dict[str, tuple[str, dict[str, Any]]]] = {
