@@ -192,8 +192,8 @@ def _report_faint(run: ExecutionContext, guards: Guards, along: Array) -> None:
 
 
 def _finish(run: ExecutionContext, outcome: Outcome, guards: Guards) -> Fault | None:
-    """Return the error of a motion, or None. If one of the motion's guards tripped, there is no error. If the motion
-    has guards and none of them tripped, the error says so.
+    """Return the error of a motion, or None if the motion has no error. If one of the motion's guards tripped, there
+    is no error. If the motion has guards and none of them tripped, the error says so.
     """
     if outcome.error is not None:
         cause = outcome.cause

@@ -299,7 +299,9 @@ class ServoLoop(Servo):
         return shaken_only and swings_unevenly(self.arm, here.M, dither, np.array(rates[-settle:]))
 
     def _resting(self) -> Motion[Scatter | None]:
-        """Hold still. Returns the joint whose rate readings scatter too much at the end, or None."""
+        """Hold still. Returns the joint whose rate readings scatter too much at the end, or None if no joint's
+        readings do.
+        """
         here, rates = self.dynamics(), []
         for _ in range(2 * self.arm.servo.settle):
             yield from self._approach(here, self.state.q, estimate=False)

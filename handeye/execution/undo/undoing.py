@@ -56,7 +56,7 @@ SAME_JOINTS: Final = 1e-4  # rad or m within which an arm is at a loop's entry
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class UndoFailure:
-    """Why a reversal was interrupted. The run stops there."""
+    """Why a reversal was interrupted. An interrupted reversal stops the run."""
 
     error: int | None = None
     cause: Cause | None = None
