@@ -50,8 +50,8 @@ class TaskFiles:
         return own | made
 
     def text(self, name: str, without: frozenset[str] = frozenset()) -> str:
-        """Return the text of the file `FOLDER/NAME`. `without` names the files for which this file is being read,
-        because they are derived from it.
+        """Return the text of the file `FOLDER/NAME`. `without` names the files that are derived from this file, and
+        for which it is being read.
         """
         place = f"{self.folder.name}/{name}"
         if name not in self.derived:

@@ -56,7 +56,7 @@ STOP_ALONE: Final = (
 
 
 def elsewhere(word: str) -> str | None:
-    """Return how this language expresses a word of another language, or None if the word is not known."""
+    """Return the form in which this language expresses a word of another language, or None if the word is not known."""
     return _ELSEWHERE.get(word.upper())
 
 

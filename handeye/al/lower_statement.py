@@ -1,4 +1,4 @@
-"""Converts statements to operations. Inches, degrees and ounces are converted to SI units here."""
+"""Converts statements to operations. This module also converts inches, degrees and ounces to SI units."""
 
 import math
 from collections.abc import Callable, Sequence

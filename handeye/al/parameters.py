@@ -81,7 +81,7 @@ class FilledLine:
         )
 
     def located(self, mistake: Diagnostic, call: Statement) -> Diagnostic:
-        """Locate a mistake at the argument if only the argument is wrong, or else at the line."""
+        """Locate a mistake at the argument if only the argument is wrong. If not, locate it at the line."""
         given = self.given.get(mistake.primary.span)
         if given is None or mistake.code == "too-many-operands":
             return replace(mistake, secondary=(Label(span=call.span, text="called here"),))

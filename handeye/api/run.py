@@ -231,7 +231,8 @@ class Run:
         return self._stand(reason(self._session.go(stops or [], steps)))
 
     def reach(self, stage: int) -> State:
-        """Run until just before a stage, given by its index from 0; do nothing if the run is already there.
+        """Run until just before a stage, given by its index from 0; do nothing if the run is already just before that
+        stage.
 
         Raises:
             InvalidInput: the run ended or stopped before that stage; the run is then closed.

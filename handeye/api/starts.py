@@ -42,7 +42,9 @@ class RunRequest:
 
     @property
     def of_task(self) -> str | None:
-        """Name of the requested task, or else the task of the requested world; None if neither was given."""
+        """Name of the requested task, or else the task of the requested world; None if neither a task nor a world was
+        given.
+        """
         return self.world.task if self.task is None and isinstance(self.world, World) else self.task
 
     @property
@@ -127,7 +129,7 @@ def _kept(given: FileName, at: str | None, wanted: RunRequest) -> Checkpoint:
 
 def _again(given: FileName, wanted: RunRequest) -> Start:
     """Open the folder of a run, so that the run continues in this folder from its newest state. Raises InvalidInput if
-    the run cannot be resumed there.
+    the run cannot be resumed in this folder.
     """
     path = given_file(given, "resume a run from a folder")
     folder, start, _ = open_again(path)

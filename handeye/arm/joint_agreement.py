@@ -95,8 +95,8 @@ class Scatter(Record, frozen=True, kw_only=True):
 
 
 def swings_unevenly(arm: ArmModel, M: Array, dither: Array, rates: Array) -> bool:
-    """Return True if the rate readings of a joint, shape (N, n), change from each swing to the next by more than two
-    converter steps plus the fraction `UNEVEN` of the swing.
+    """Return True if a joint swings unevenly: its rate readings, shape (N, n), change from one swing to the next by
+    more than two converter steps plus the fraction `UNEVEN` of the size of a swing.
 
     The torques `dither`, shape (n,), in N m and N, shake the joints, and change sign in each servo period. The swing
     is computed for a joint without friction, from the inertia and from the damping of the servo.
@@ -225,8 +225,8 @@ def jumped(
     blow: Array | None = None,
     throw: Array | float = 0.0,
 ) -> Disagreement | None:
-    """Find the joint whose potentiometer disagrees with its rates before and after a servo period. Returns None if
-    all agree.
+    """Find the joint whose potentiometer moved, in a servo period, by a distance that does not agree with the rates
+    before and after this period. Returns None if all agree.
 
     A reading that jumps is detected at once, whatever the arm does. `blow` are the changes of rate that a blow on the
     hand may have caused within the period (see `blown`). `throw` is how far an object that shifted in the fingers may

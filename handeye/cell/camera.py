@@ -207,8 +207,8 @@ def renderer_here(kind: str) -> Literal["gl", "ray"]:
 
 
 def make_renderer(kind: str | RendererMaker, model: mujoco.MjModel) -> SceneRenderer:
-    """Make a renderer. `kind` is `gl`, `ray`, `auto` (`gl` if it works here), or a function of the caller that makes a
-    renderer. Raises InvalidInput if that fails.
+    """Make a renderer. `kind` is `gl`, `ray`, `auto` (`gl` if OpenGL works on this computer), or a function of the
+    caller that makes a renderer. Raises InvalidInput if no renderer can be made.
     """
     if not isinstance(kind, str):
         return kind(model)

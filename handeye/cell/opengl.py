@@ -100,7 +100,9 @@ class OpenGlRenderer(SceneRenderer):
         return averaged(rgb[::-1].astype(np.float32) @ (LUMA / 255).astype(np.float32))
 
     def _aim(self, view: View) -> None:
-        """Place the OpenGL camera where the television camera is, with its raster of non-square points."""
+        """Place the OpenGL camera where the television camera is, and give it that camera's raster of non-square
+        points.
+        """
         X_WC, (fx, fy) = view.X_WC, view.focal
         for eye in self._scene.camera:
             eye.pos[:] = X_WC[:3, 3]
@@ -153,8 +155,8 @@ def context() -> tuple[str, Any]:
     """Return the name of the platform and the only OpenGL context of this process.
 
     All renderers share the context, so that the objects of one renderer are never freed in the context of another.
-    Raises InvalidInput if OpenGL does not work here. OpenGL is tested with an empty scene, because an OpenGL version
-    that is too old fails only when it is given a scene.
+    Raises InvalidInput if OpenGL does not work on this computer. OpenGL is tested with an empty scene, because an
+    OpenGL version that is too old fails only when it is given a scene.
     """
     set_here = sorted(
         name for name, value in os.environ.items() if name.startswith(SETTINGS) and value != "egl"

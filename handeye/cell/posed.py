@@ -52,8 +52,8 @@ Posed = tuple[mujoco.MjModel, mujoco.MjData]  # a scene, and the state in which 
 
 
 def posed(scene: mujoco.MjModel, poses: Mapping[str, Sequence[float]], time: float = 0.0) -> Posed:
-    """Make a copy of a scene with its bodies at given poses. The copy is only for viewing: joints stay as in the
-    model.
+    """Make a copy of a scene with its bodies at given poses. The copy is only for viewing: its joint positions stay as
+    in the model, and do not fit the poses.
 
     `poses` gives, for the name of each body, a position in W (m) and a unit quaternion w, x, y, z. A body without a
     pose stays as in the model, and bodies that appear only after an event stay hidden. Clock hands show `time` (s).

@@ -2,8 +2,8 @@
 solids.
 
 A solid is a coloured surface with a mass. A solid also records whether its surface is closed. If a surface consists of
-several coloured pieces in the scene, the pieces form one solid here. A surface is closed only if neighbouring faces
-share their corners, so each corner has only one colour. Where two colours meet, the corners get the lighter colour.
+several coloured pieces in the scene, these pieces form one solid. A surface is closed only if neighbouring faces share
+their corners, so each corner has only one colour. Where two colours meet, the corners get the lighter colour.
 
 The file has a tree of named bodies. Each body has its solids, and named places on the body. In glTF, y points up and
 colours are linear, so axes and colours are converted. Grain and gloss are left out.

@@ -1,8 +1,9 @@
 """Exceptions for callers, and the numbered errors that a script can test.
 
 A mistake in a script is a `Diagnostic`, which is collected and not raised. A failure in the cell, such as an empty
-hand, is an error *number*, which SKIPE and SKIPN test. The exceptions here are for a caller who misuses the
-interface or gives an unusable file, and for a run that broke down; each carries one clear sentence for the user:
+hand, is an error *number*, which SKIPE and SKIPN test. The exceptions of this module are for a caller who misuses the
+interface or gives an unusable file, and for a run that broke down. Each exception carries one clear sentence for the
+user:
 
     HandeyeError
     ├── InvalidInput              an argument, file or request cannot be used

@@ -1,5 +1,5 @@
-"""Writes text for users: printable characters, counts with their nouns (`2 steps`), and numbers with enough
-digits.
+"""Writes text for users: printable characters, counts with their nouns (`2 steps`), and numbers with as many digits as
+a reader needs.
 """
 
 import math

@@ -133,7 +133,7 @@ def _step_changes(events: Iterable[AnyEvent]) -> Iterator[tuple[float, str]]:
 
 
 def _in_progress(changes: Iterable[tuple[float, str]], moments: Array) -> tuple[str, ...]:
-    """Return, for each moment, the text that applies from that moment on."""
+    """Return, for each moment, the text of the last change up to that moment."""
     told = [(-np.inf, ""), *changes]
     numbers = np.searchsorted([time for time, _ in told], moments + CLOCKS, side="right") - 1
     return tuple(told[number][1] for number in numbers.tolist())

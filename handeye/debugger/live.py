@@ -1,5 +1,6 @@
-"""Shows a run at the terminal while it goes on: limits its pace, prints each step when it begins, and reads
-lines that the user types meanwhile."""
+"""Shows a run at the terminal while it goes on: limits its pace, prints each step when it begins, and reads lines that
+the user types during the run.
+"""
 
 import re
 import time

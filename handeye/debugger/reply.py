@@ -81,8 +81,8 @@ def _outcome(
 
 
 def _end(group: Sequence[AnyEvent], step: happened.StepStarted, program: Listing, measures: Measures) -> str:
-    """Return where the hand or the fingers were at the end of a step in which nothing else happened. The text is empty
-    if the step took no time.
+    """Return the place of the hand, or the gap of the fingers, at the end of a step in which nothing else happened.
+    The text is empty if the step took no time.
     """
     last = next((event for event in group if isinstance(event, happened.StepFinished)), None)
     if last is None or last.time == step.time:

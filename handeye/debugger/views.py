@@ -72,7 +72,7 @@ def _topic(what: str, topics: Collection[str]) -> str:
 
 
 def last_picture(runner: Runner) -> str | None:
-    """Return the name of the last picture that still exists, or None."""
+    """Return the name of the last picture that still exists, or None if there is no such picture."""
     taken = [event.picture for event in runner.events if isinstance(event, PictureTaken)]
     return next((name for name in reversed(taken) if name in runner.system.shots), None)
 

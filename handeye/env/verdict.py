@@ -95,6 +95,6 @@ def _reached(job: Job, found: Findings) -> tuple[str, ...]:
 
 
 def _peak(runner: Runner) -> float | None:
-    """Return the greatest force that a cell's witness has seen (N), or None if the cell has no witness."""
+    """Return the greatest force (N) that the witness of the cell has measured, or None if the cell has no witness."""
     witness = getattr(runner.cell, "witness", None)
     return None if witness is None else round(float(witness.peak), 6)

@@ -108,7 +108,7 @@ class Executor:
         self._leave()
 
     def answer(self, choice: Choice) -> None:
-        """Continue after the operator was called. The choice `proceed` also continues after a reversal."""
+        """Continue after the operator was called. If the choice is `proceed`, continue after a reversal."""
         run, stage = self.run, self.state.stage
         assert stage is not None or choice == "proceed"
         going_on = {"proceed": self.state.onward}

@@ -194,7 +194,8 @@ def _held(run: ExecutionContext, least: float, maximum: float | None) -> Fault |
 
 
 def _unlike(run: ExecutionContext, least: float, maximum: float | None) -> GapUnlike | None:
-    """Compare the gap with the nominal thickness of the object held here. Returns None if they agree.
+    """Compare the gap with the nominal thickness of the object that the hand should hold at this place. Returns None
+    if the two agree.
 
     A gap outside the limits that the program gives is not reported the first time, because the hand may hold
     another object, or hold the object askew. If the next grasp reads the same gap, the gap is reported.
@@ -210,8 +211,8 @@ def _unlike(run: ExecutionContext, least: float, maximum: float | None) -> GapUn
 
 
 def _nominal(run: ExecutionContext) -> tuple[str, float | None]:
-    """Return the name of the object held here and its nominal thickness (m), or "" and None if the object is not
-    known.
+    """Return the name of the object that the hand should hold at this place, and its nominal thickness (m). Returns ""
+    and None if the object is not known.
     """
     objects = run.plan.program.held.items()
     known = ((name, held.thickness) for name, held in objects if run.state.place in held.positions)

@@ -192,8 +192,8 @@ def _report_faint(run: ExecutionContext, guards: Guards, along: Array) -> None:
 
 
 def _finish(run: ExecutionContext, outcome: Outcome, guards: Guards) -> Fault | None:
-    """Return the error of a motion, or None. If one of the motion's guards tripped, there is no error. If the motion
-    has guards and none of them tripped, the error is that of the guards.
+    """Return the error of a motion, or None if the motion has no error. If one of the motion's guards tripped, there
+    is no error. If the motion has guards and none of them tripped, the error says so.
     """
     if outcome.error is not None:
         cause = outcome.cause
@@ -264,7 +264,7 @@ def _turned_hard(run: ExecutionContext, guards: Guards) -> Fault | None:
 
 
 def _held_fast(run: ExecutionContext, guards: Guards) -> Fault | None:
-    """Return the error if the motor is held fast: its torque of the last second is high, but below the torque of
+    """Return the error if the motor is held fast: its torque during the last second is high, but below the torque of
     the guard.
 
     No thread and no slipping bit takes this much torque for a whole second. A motor that is held fast takes the torque

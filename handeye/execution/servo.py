@@ -1,8 +1,8 @@
 """The servo of an arm. In each servo period, the servo commands torques and estimates the force on the hand.
 
 The servo uses only the device interfaces: positions come from the potentiometers, refined by the tachometers, and
-forces from the residual of the joint torques. A period does not let time pass itself: it yields after commanding
-all devices, and reads the cell when it is resumed.
+forces from the residual of the joint torques. The code of a period does not let time pass. After it has commanded all
+devices, it yields to its caller, who lets time pass. When it is resumed, it reads the cell.
 """
 
 from collections.abc import Callable, Generator
@@ -243,8 +243,8 @@ class Servo:
     def _jumped(self, tau: Array | None, before: Sensed, after: Sensed) -> Disagreement | None:
         """Find a potentiometer whose reading jumped in a servo period with torques `tau`, or under the brakes if `tau`
         is None. A blow on the hand also changes readings suddenly. Such a blow is recognised by the readings of the
-        other joints, and does not count. The blow of an object that shifts in the fingers does not count either; the
-        closing gap shows such a blow.
+        other joints, and is not taken for a jump. Nor is the blow of an object that shifts in the fingers: the closing
+        gap shows such a blow.
         """
         moved, work = after.q - before.q, self._work(before, after)
         self._unseen = moved - (before.qd + after.qd) * (self.period / 2) if work else None

@@ -1,8 +1,8 @@
 """The servo loop: motions of an arm along set-points, one servo period at a time, watched by guards.
 
-A motion does not let time pass itself. A motion is a generator. It yields after commanding all devices for a servo
-period, and reads the cell when it is resumed. In between, the caller advances the clock, so any number of arms can
-move under one clock.
+A motion is a generator. It yields after it has commanded all devices for a servo period, and reads the cell when it is
+resumed. Only the caller advances the clock, between these two moments. Any number of arms can therefore move under one
+clock.
 """
 
 from collections.abc import Callable, Sequence
@@ -132,7 +132,7 @@ class ServoLoop(Servo):
         """Follow set-points. The motion ends early if `guard` trips. The torques are appended to `taken`.
 
         The guard watches along `direction`, unit vectors in W, shape (3,) or (N, 3). `beside` is called with the
-        number of each set-point, to give further commands for that servo period.
+        number of each set-point, to give further commands for the servo period of that set-point.
         """
         if len(samples) == 0:
             return REACHED
@@ -174,9 +174,9 @@ class ServoLoop(Servo):
     def gliding(self, samples: Samples, guard: Monitor | None, direction: Array | None) -> Motion[Outcome]:
         """Follow set-points through free air. See `following`.
 
-        The distance of the hand from its set-points in the middle of the motion distinguishes two errors. A hand that
-        an obstacle stops lags behind its set-points only from then on; a hand on which a force acts is displaced
-        during the whole motion.
+        An obstacle and a force on the hand are two different errors. They are distinguished by the distance of the
+        hand from its set-points in the middle of the motion. A hand that meets an obstacle lags behind its set-points
+        only after it has met the obstacle. A hand on which a force acts is displaced during the whole motion.
 
         The torques are compared with the arm's weight only if the hand is clear of all objects when the motion begins.
         After a guarded motion, for example, a held pin may stand in a hole, and the hole then bears part of the
@@ -313,7 +313,9 @@ class ServoLoop(Servo):
         return shaken_only and swings_unevenly(self.arm, here.M, dither, np.array(rates[-settle:]))
 
     def _resting(self) -> Motion[Scatter | None]:
-        """Hold still. Returns the joint whose rate readings scatter too much at the end, or None."""
+        """Hold still. Returns the joint whose rate readings scatter too much at the end, or None if no joint's
+        readings do.
+        """
         here, rates = self.dynamics(), []
         for _ in range(2 * self.arm.servo.settle):
             yield from self._approach(here, self.state.q, estimate=False)
@@ -328,9 +330,9 @@ class ServoLoop(Servo):
     def height(self) -> float:
         """Height (m, in W) at which the hand has stopped, computed from its set-point.
 
-        At the hand, one step of the converters is up to .05 in, while a set-point has no steps. A moving arm passes
-        many readings, over which the steps average out. Two motions that end on the same force therefore end at the
-        same mean height.
+        At the hand, one step of the converters is up to .05 in, while a set-point has no steps. While the arm moves,
+        it takes many readings, over which the errors of the steps average out. Two motions that end on the same force
+        therefore end at the same mean height.
         """
         met = self.state.met
         return float(self.chain.forward(self.state.q)[2, 3] if met is None else met[2])
@@ -371,7 +373,7 @@ class ServoLoop(Servo):
         return np.asarray(self.state.tare[:3] + np.array((0.0, 0.0, self.state.load)))
 
     def _force_in_air(self) -> Outcome:
-        """Return the error that the force taken as zero at the last tare is too large for free air."""
+        """Return an error: the force that was taken as zero at the last tare is too large for free air."""
         x, y, z = (round(float(component), 6) for component in self._unloaded())
         cause = ForceInAir(force=(x, y, z), limit=FREE_FORCE, load=self.state.load)
         return Outcome(error=errors.FORCE_WRONG, cause=cause)

@@ -84,8 +84,8 @@ class SearchState(MutableRecord, kw_only=True):
         return found
 
     def place(self, pattern: SearchPattern, number: int) -> tuple[float, float] | None:
-        """Return the horizontal offset (m) of a place of the search, on its line or in the pattern, or None after
-        the last place.
+        """Return the horizontal offset (m) of a place of the search. The place is on the line of the search or,
+        without a line, in the pattern. Returns None after the last place.
         """
         if number >= self.limit:
             return None

@@ -31,9 +31,10 @@ class ToolAxes(Axes):
 
     For each goal, the arm is driven for one servo period towards the goal, at most at the speed limit of each axis. No
     path is planned: the caller must give a goal in every period, or the watchdog sets the brakes. Force is measured
-    relative to the last call of `tare`. The force is estimated well if the drive knows the friction of the joints
-    (`measure_joints`). The estimate is one period late: a descent onto the table that should stop at 6 N stops at 6.1
-    to 7.5 N if the speed is .01 m/s, at 17 N if the speed is .025 m/s, and at 34 N if the speed is .05 m/s.
+    relative to the force at the last call of `tare`. The force is estimated well if the drive knows the friction of
+    the joints (`measure_joints`). The estimate is one period late: a descent onto the table that should stop at 6 N
+    stops at 6.1 to 7.5 N if the speed is .01 m/s, at 17 N if the speed is .025 m/s, and at 34 N if the speed is .05
+    m/s.
     """
 
     def __init__(self, drive: ArmDrive, name: str = "tool", reach: float = 1.5) -> None:
@@ -64,7 +65,7 @@ class ToolAxes(Axes):
         return self._drive.period
 
     def tare(self) -> None:
-        """Hold still for some servo periods, and take the force sensed then as zero."""
+        """Hold still for some servo periods, and take the force that is sensed during these periods as zero."""
         self._finish()
         self._goal = self._start if self._motion is not None else self._goal
         self._end(self._drive.zero())
@@ -95,7 +96,7 @@ class ToolAxes(Axes):
         return AxesReading(time=sensed.time, q=q, channels=dict(zip(parts, map(float, values), strict=True)))
 
     def put(self, goal: Array) -> None:
-        """Drive the arm for one servo period towards a goal. Raises Refused if the arm cannot go there."""
+        """Drive the arm for one servo period towards a goal. Raises Refused if the arm cannot go to the goal."""
         if np.shape(goal) != (count := len(self._specs),):
             raise BadArgument(f"a goal of {self.name} must have {count} numbers, one for each axis")
         if not np.isfinite(goal).all():

@@ -53,7 +53,7 @@ def lens(run: ExecutionContext, operation: Lens) -> Fault | None:
 
 
 def aim(run: ExecutionContext, operation: Aim) -> Fault | None:
-    """Turn the camera to the face of a part or to a hand position, and focus there."""
+    """Turn the camera to the face of a part or to a hand position, and focus it on this face or position."""
     p_W = _target(run, operation.target)
     pan, tilt = _known(run).aim(p_W, run.state.lens)
     _start(run, "aim", _tv(run).aim(pan, tilt))
@@ -92,7 +92,9 @@ def look(run: ExecutionContext, operation: Look) -> Fault | None:
 
 
 def _dead(run: ExecutionContext, name: str, picture: Picture) -> SenseCause | None:
-    """Return the reason why a picture cannot come from a sound live camera, or None if there is no such reason."""
+    """Return the reason why a picture cannot be a new picture of a camera without faults, or None if there is no such
+    reason.
+    """
     if blank(picture):
         return PictureBlank(picture=name)
     for earlier, shot in run.state.shots.items():
@@ -105,8 +107,8 @@ def _dead(run: ExecutionContext, name: str, picture: Picture) -> SenseCause | No
 
 
 def _start(run: ExecutionContext, action: str, seconds: float) -> None:
-    """Add to the time at which the camera will be ready. The mechanism of the camera performs one action after
-    another.
+    """Postpone the time at which the camera will be ready by the duration of an action. The mechanism of the camera
+    performs one action after another.
     """
     if seconds <= 0:
         return
@@ -226,8 +228,8 @@ Examination = Callable[[Picture, Picture, View, Part, Pose2D], Found | Failure]
 def _compared(
     run: ExecutionContext, operation: Comparison, number: int, examine: Examination[Found]
 ) -> Found | Fault | None:
-    """Examine two pictures, the earlier first. Returns the finding; or error `number` if the examination fails; or
-    None if vision is switched off.
+    """Examine two pictures, the earlier first. Returns the finding. If the examination fails, returns the error
+    `number`. If vision is switched off, returns None.
     """
     if "vision" in run.without:
         return None

@@ -52,8 +52,8 @@ def _matched(
 
 
 def leads_alike(pairs: Sequence[Pair], old: int | None, new: int | None) -> bool:
-    """Two edges lead to the steps `old` and `new`. Return True if both lead to the same step once removed and added
-    steps are skipped. None stands for the end of the program.
+    """Two edges lead to the steps `old` and `new`. Return True if both edges lead to the same step when all removed
+    steps and all added steps are skipped. None stands for the end of the program.
     """
     at = _pair_of(pairs, 0, old)
     if at < len(pairs) and pairs[at][1] is not None:
@@ -88,7 +88,7 @@ _LEAST_TURN: Final = 1e-6  # rad; the precision of an arc cosine near 1
 
 class PlaceChange(Record, frozen=True, kw_only=True):
     """A position or part that was added, removed, moved or changed. `shift` (m) and `turn` (rad) say how the position
-    or part moved. They are in the axes of the table, or of the part to which the position belongs.
+    or part moved. Both are given in the axes of the table, or of the part to which the position belongs.
     """
 
     kind: Literal["added", "removed", "moved", "changed"]
@@ -257,8 +257,8 @@ def _change(
 
 
 def step_changes(one: Step, other: Step) -> Iterator[tuple[str, str, str]]:
-    """Yield the differences between two paired steps. Each difference has its subject, the value before and the value
-    after. Branch targets are not compared.
+    """Yield the differences between two paired steps. Each difference is given by three texts: what differs, the value
+    before and the value after. Branch targets are not compared.
     """
     texts = [one_line(step.text) for step in (one, other)]
     guards = ["; ".join(conditions(step.operation)) or "none" for step in (one, other)]

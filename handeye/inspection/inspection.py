@@ -54,8 +54,9 @@ def _dependence(program: Program, key: Key, level: bool, steps: frozenset[int]) 
 
 
 def _uses(program: Program, kept: set[str], operation: Operation) -> list[tuple[Key, bool]]:
-    """Return the measured values that a motion or look needs. Each value has a flag, which is True if only the
-    horizontal part of the value is needed. `kept` holds the positions that `HERE` defines.
+    """Return the measured values that an operation needs, if it is a motion or a look of the camera. Each value has a
+    flag, which is True if only the horizontal part of the value is needed. `kept` holds the positions that `HERE`
+    defines.
     """
     found: list[tuple[Key, bool]] = []
     for kind, name, level in operation.reads if operation.family in ("motion", "sight") else ():

@@ -44,7 +44,7 @@ def register(task: AnyTask) -> None:
     """Register a task under its name, and its arm under the arm's name.
 
     Raises InvalidInput if the object is not a task or has no name, if the parked configuration is outside the
-    arm's limits, or if another task or arm has the name.
+    arm's limits, or if the name of the task or of its arm is already in use.
     """
     if not isinstance(task, AnyTask):
         raise BadArgument(f"a task must be an instance of a class derived from handeye.Task, not {task!r}")
@@ -80,7 +80,7 @@ def named(words: str) -> AnyTask:
 
 def option(name: str) -> tuple[str, ...]:
     """Return the command-line option with which a command finds the task of a plan or run, for example `--task
-    my_task:TASK`. Returns nothing if the task is found by its name alone.
+    my_task:TASK`. Returns an empty tuple if the task is found by its name alone.
     """
     return ("--task", _WORDS[name]) if name in _WORDS else ()
 
@@ -144,8 +144,9 @@ def known(name: str) -> Task | None:
 
 
 def of_plans(kind: Kind) -> Iterator[Task]:
-    """Yield the tasks of one origin that run planned programs. Each task is imported when the iteration reaches
-    it; a task that cannot be imported is left out."""
+    """Yield the tasks of one kind (`ours`, `registered` or `others`) that run planned programs. Each task is imported
+    when the iteration reaches it; a task that cannot be imported is left out.
+    """
     for name in _NAMES[kind]():
         try:
             found = known(name)

@@ -43,7 +43,7 @@ class CameraSetup(Record, frozen=True, kw_only=True):
 
 
 class HistoricalTiming(Record, frozen=True, kw_only=True):
-    """Durations of the same work in 1973 (s)."""
+    """How long the work of a task took in 1973 (s)."""
 
     year: int
     program: str  # the program that was timed
@@ -229,8 +229,10 @@ class Task(AnyTask):
         """
 
     def obligations(self, world: WorldSpec) -> tuple[Obligation, ...]:
-        """Return, for each finding of the referee, what a program must show before it ends; none by default. Each
-        finding occurs once. The obligations depend on the job of the world, but not on its errors."""
+        """Return the obligations of a program. An obligation is what the program must show, for one finding of the
+        referee, before the program ends. By default, there are no obligations. Each finding occurs once. The
+        obligations depend on the job of the world, but not on its errors.
+        """
         return ()
 
     def disturbances(self) -> tuple[Disturbance, ...]:
@@ -246,7 +248,7 @@ class Task(AnyTask):
         """Return the scene of a world for export to other programs, with every object where it really is.
 
         Args:
-            keyframe: name of the scene's last keyframe, which stores that state.
+            keyframe: name of the scene's last keyframe, which stores the true state of all objects.
 
         Raises:
             InvalidInput: this task exports no scene.

@@ -16,7 +16,7 @@ design; or the true camera.
 
 
 class Attempt(Record, frozen=True, kw_only=True):
-    """One attempt of a trial. Each kind of trial adds the outcome."""
+    """One attempt of a trial. Each kind of trial adds fields for the outcome."""
 
     seed: int  # seed of the world
     number: int  # index of the attempt in that world, from 0

@@ -1,14 +1,14 @@
 """Finds executed steps that changed only the memory of the program. One lift of the hand reverses all these steps.
 
 The steps that changed only the memory are rounds of a loop, and touches. When a program has jumped back to an earlier
-step, the cell is assumed to be in the state in which it was after that step, if these conditions hold: since then no
-stage began and the operator was not called; the hand holds the same object; every object was put down at the place
-where it was taken up, or taken up at the place where it was put down; and every screw driven in was backed out. Rounds
+step, the cell is assumed to be in the same state as after that step if four conditions hold. Since that step, no stage
+began and the operator was not called. The hand holds the same object. Every object was put down at the place where it
+was taken up, or taken up at the place where it was put down. Every screw that was driven in was backed out. Rounds
 that carry objects to another place do not meet the conditions and are reversed step by step.
 
-A touch is a motion of an empty hand that ended on contact, together with the motion that left the object. If a
-touch were reversed step by step, the hand would touch the object a second time. If the object has been pushed since
-then, a finger that had moved to the side of the object would descend on the object's edge.
+A touch is a motion of an empty hand that ended on contact, together with the motion that left the object. If a touch
+were reversed step by step, the hand would touch the object a second time. If the object has been pushed after the
+touch, a finger that had moved to the side of the object would now descend on the object's edge.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -30,8 +30,8 @@ it is taken up. The tolerance is needed because fingers slide on an object.
 def loop_entry(
     done: Sequence[ExecutedStep], hand: Callable[[int], Array | None], *, grasping: bool | None = None
 ) -> int | None:
-    """Return the index of the step to which the last jump back returned, if the cell is in the state in which that
-    step left the cell. Returns None if there is no such step.
+    """Return the index of the step to which the last jump back returned, if the state of the cell is the same as at
+    the end of that step. Returns None if there is no such step.
 
     The jump counts only if all motions since that step were in free air. If a MOVE to the next place of a search were
     reversed, the hand would end in contact with the object that it met at the previous place. `hand` takes the index
@@ -57,7 +57,8 @@ def loop_entry(
 def _keeps_hold(done: Sequence[ExecutedStep], index: int, grasping: bool | None) -> bool:
     """Return True if the hand holds the same object before and after a step.
 
-    A grasp at the beginning of a loop does not count, because each round may hold another object.
+    A grasp at the beginning of a loop is not regarded as keeping the same object, because each round may grasp another
+    object.
     """
     here, (before, behind) = done[index], done[index].gap
     after = (

@@ -140,8 +140,8 @@ gasket fell 8.05 mm and was still held, but this limit stops the reversal, becau
 
 
 def stands(run: ExecutionContext, way: RecordedPath, grasps: Callable[[ExecutedStep], bool]) -> bool:
-    """Return True if the resistance shows that the held object stands on a surface: the path leads to the grasp of
-    the object, and the hand is nearly there.
+    """Return True if the resistance shows that the held object stands on a surface: the path leads to the place where
+    the object was grasped, and the hand is nearly at this place.
 
     `grasps` returns True if a step grasps an object, or grips it more firmly.
     """

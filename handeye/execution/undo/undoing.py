@@ -56,7 +56,7 @@ SAME_JOINTS: Final = 1e-4  # rad or m within which an arm is at a loop's entry
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class UndoFailure:
-    """Why a reversal was interrupted. The run stops there."""
+    """Why a reversal was interrupted. An interrupted reversal stops the run."""
 
     error: int | None = None
     cause: Cause | None = None
@@ -186,7 +186,7 @@ def _way(run: ExecutionContext, done: ExecutedStep) -> RecordedPath:
 
 
 def _retrace(run: ExecutionContext, done: ExecutedStep) -> UndoFailure | None:
-    """Retrace the path of a step while holding the object."""
+    """Retrace the path of a step while the hand keeps holding its object."""
     way = _way(run, done)
     stopped = _go(run, done, RecordedPath(q=way.q, gap=np.full(len(way), run.drive.state.gap)))
     resisted = stopped is not None and isinstance(stopped.cause, UndoResisted)
@@ -202,10 +202,10 @@ def _let_go(run: ExecutionContext, done: ExecutedStep) -> UndoFailure | None:
     """Reverse a grasp: open the fingers to the earlier gap. If the fingers held an object before the step, they grip
     this object again as firmly as before.
 
-    Before opening, the fingers must hold the object that they grasped: the gap must be the same as in the grasp, or as
-    in a later grasp during the reversal. A carried object may straighten between the fingers: in the world of seed 1,
-    a base that straightened changed the gap by 1.1 mm. A change of more than twice this amount means another object,
-    or no object.
+    Before opening, the fingers must hold the object that they grasped: the gap must be the same as in the grasp or, if
+    the reversal has grasped the object again, as in that later grasp. A carried object may straighten between the
+    fingers: in the world of seed 1, a base that straightened changed the gap by 1.1 mm. A change of more than twice
+    this amount means another object, or no object.
     """
     kept = done.gap[1]
     held = kept if run.state.held is None else run.state.held

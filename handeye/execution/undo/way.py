@@ -70,8 +70,8 @@ def packed(way: RecordedPath) -> bytes:
 
 
 def unpacked(data: bytes, joints: int) -> RecordedPath:
-    """Decode a path from bytes made by `packed`. Raises ValueError if the path does not belong to an arm with that
-    many joints.
+    """Decode a path from bytes made by `packed`. Raises ValueError if the path does not belong to an arm with `joints`
+    joints.
     """
     inflater = zlib.decompressobj()
     try:

@@ -1,4 +1,4 @@
-"""MAL from Python: a program on perfect motors, or on the two gantries with physics."""
+"""Executes MAL programs from Python, on perfect motors or on the two gantries with physics."""
 
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Final, Literal, get_args
@@ -145,7 +145,9 @@ class Mal:
         return [f"{event.time:6.2f} s  {event.sentence(MILLIMETRES)}" for event in self._events]
 
     def status(self, axis: str) -> str:
-        """Return the state of a motor: `free`, `busy`, or the reason of its abort: `rail` or `force`."""
+        """Return the state of a motor: `free` or `busy`. After an abort, return the reason of the abort (`rail` or
+        `force`).
+        """
         if axis not in AXES:
             raise NoSuchName(f"there is no axis {quoted(axis)}; the axes are {', '.join(AXES)}")
         return self._machine.status(NUMBERS[axis]).name.lower()

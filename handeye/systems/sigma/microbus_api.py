@@ -77,7 +77,7 @@ class Microbus:
 
         Raises:
             NoSuchName: there is no such microcomputer or operation.
-            BadArgument: a number does not fit.
+            BadArgument: a number is outside its range, or the operation is a question.
         """
         kind = _op(op)
         if kind in ANSWERS:
@@ -101,8 +101,8 @@ class Microbus:
         return signed(answer) if kind in _SIGNED else int.from_bytes(answer, "big")
 
     def status(self, name: str | int) -> str:
-        """Return the state of a microcomputer: `free`, `busy`, or, if its last command was aborted, the reason:
-        `rail` or `force`.
+        """Return the state of a microcomputer: `free` or `busy`. If its last command was aborted, return the reason of
+        the abort (`rail` or `force`).
         """
         return self._bus.status(number_of(name)).name.lower()
 

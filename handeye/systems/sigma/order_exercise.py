@@ -69,7 +69,7 @@ class OrderExercise(Exercise):
 
 
 def _work(source: Source) -> dict[str, list[str]]:
-    """Return, for each task, the statements that do the work."""
+    """Return, for each task, the statements that a student must keep (see `_WORK`)."""
     found: dict[str, list[str]] = {}
     for line in checked(source)[0]:
         if line.statement.word in _WORK:

@@ -152,7 +152,9 @@ def origin(axis: str | int) -> Command:
 
 
 def position(axis: str | int, *, at_abort: bool = False) -> Command:
-    """Make the question for the step count of a motor, either now or at the last abort."""
+    """Make the question for the step count of a motor: the present count or, if `at_abort` is True, the count at the
+    last abort.
+    """
     return Command(number=number_of(axis), op=Op.ABORT_POSITION if at_abort else Op.POSITION)
 
 

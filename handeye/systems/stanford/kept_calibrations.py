@@ -1,8 +1,8 @@
 """Stores calibrations for later runs, as files in the user's cache. A file's name is a digest of the conditions
 of the calibration.
 
-A file that cannot be used is replaced. Several processes may write at the same time, because each file is
-written atomically, and equal conditions give equal bytes.
+A file that cannot be used is replaced. Several processes may write at the same time, because each file is written
+atomically, and files for equal conditions have equal bytes.
 """
 
 import hashlib

@@ -57,7 +57,7 @@ class PlanLeg(RunningPlan, RunningLeg):
 
     def _found(self, stage: str, kind: Kind, record: HandOver) -> Mapping[str, np.ndarray]:
         """Return the values of the record that this program knows by name. Raises Refused if the stage needs a value
-        that neither this program nor the record has, or that the record has only as another kind.
+        that neither this program nor the record has, or if the record's value is of another kind than the stage needs.
         """
         program, state = self.plan.program, self.state
         own = {"difference": {*state.saved}, "height": {*state.heights}, "place": {*program.positions}}[kind]

@@ -42,7 +42,7 @@ def _hand(runner: Runner) -> HandView:
 
 
 def _force(runner: Runner) -> Vector3 | None:
-    """Return the force (oz) at which a guard stopped the hand in this servo period, or None if no guard did."""
+    """Return the force (oz) at which a guard stopped the hand in this servo period, or None if no guard stopped it."""
     tripped = next((event for event in reversed(runner.events) if isinstance(event, GuardTripped)), None)
     if tripped is None or tripped.time != runner.time:
         return None

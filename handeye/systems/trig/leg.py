@@ -1,12 +1,13 @@
-"""Lets TRIG do legs of a relay. A TRIG program moves the tool of the Stanford arm, which takes the place of the
-Purbrick arm.
+"""Lets TRIG do legs of a relay. In a leg, a TRIG program moves the tool of the Stanford arm instead of the Purbrick
+arm.
 
 TRIG's platter is a part of the table: its centre is at x = 20 and y = 36.5 in. X, Y and Z are parallel to the axes of
 the table, and a hand with ROLL, PITCH and YAW 0 points straight down, with its finger line along Y. The script of the
-leg teaches the program with an ideal arm. In the same way, the taught file of the arm language is written from the
-drawing.
+leg teaches the program with an ideal arm. So the taught places are exact, like the positions in the arm language's
+taught file, which are computed from the drawing.
 
-TRIG has no words for the end of a program that has failed. A leg therefore ends well only at the step FINISH.
+TRIG has no command with which a program can report that it has failed. A leg therefore ends well only at the step
+FINISH.
 """
 
 from collections.abc import Mapping, Sequence
@@ -120,7 +121,7 @@ def on_table(place: Place) -> tuple[float, ...]:
 
 
 def on_platter(axes: "Sequence[float] | Array") -> Place:
-    """Return the place on the platter of a hand at x, y, z (m, W) and O, A, T (rad)."""
+    """Return the hand's place on the platter, if the hand is at x, y, z (m, W) and O, A, T (rad)."""
     x, y, z, *angles = map(float, axes)
     turned = ((a - down + pi) % (2 * pi) - pi for a, down in zip(angles, _DOWN, strict=True))
     return Place(x - CENTRE[0], y - CENTRE[1], z, *turned)

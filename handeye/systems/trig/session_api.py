@@ -1,4 +1,6 @@
-"""A TRIG session for use from Python: a program types lines, and both displays show the resulting TRIG program."""
+"""A TRIG session for use from Python. Python code types lines into the session, and both of TRIG's displays show the
+TRIG program that results.
+"""
 
 from typing import Final, get_args
 
@@ -70,7 +72,7 @@ class TrigSession:
         width, 3).
 
         Raises:
-            InvalidInput: the arm is `none`, which has no physics, OpenGL is missing, or the size is impossible.
+            InvalidInput: the arm is `none` (it has no physics), or OpenGL is missing, or the size is impossible.
         """
         table = self._session.table
         if not isinstance(table, SeenTable):

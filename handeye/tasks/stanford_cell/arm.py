@@ -30,7 +30,7 @@ def add_arm(spec: mujoco.MjSpec, world: ArmWorld) -> None:
 
 
 def _differ(arm: mujoco.MjSpec, build: ArmBuild) -> None:
-    """Change the arm from its design to the arm of a world."""
+    """Change the arm as designed into the arm of a world."""
     for i, friction in enumerate(build.friction):
         link, joint = arm.body(f"link{i + 1}"), arm.joint(f"j{i + 1}")
         link.mass *= build.link_mass[i]

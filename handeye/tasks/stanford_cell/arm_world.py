@@ -1,4 +1,4 @@
-"""The errors of the arm and the hand in one world, from which a cell is built."""
+"""The errors of the arm and the hand in one world. A cell is built with these errors."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass

@@ -1,5 +1,6 @@
-"""Pins, screws, tapped holes, and the bit that drives the screws, in the form that `handeye/cell/threads.py`
-needs. A scene can use them if its parts have the styles of this file. Places and lengths are in mm, with z up.
+"""Pins, screws, tapped holes, and the bit that drives the screws, in the form that `handeye/cell/threads.py` needs. A
+scene can use these shapes if the parts of the scene have the styles of this file. Places and lengths are in mm, with z
+up.
 """
 
 from math import cos, nan, pi, sin, sqrt

@@ -80,7 +80,7 @@ class Shaper:
         return _named(geom, name, material)
 
     def convex(self, name: str, points: Array) -> str:
-        """Add a mesh asset for collisions, the convex hull of `points` (m, shape (n, 3)). Returns the name of the
+        """Add the convex hull of `points` (m, shape (n, 3)) as a mesh asset for collisions. Returns the name of the
         asset.
         """
         self.spec.add_mesh(name=name, uservert=points.ravel().tolist())
@@ -111,8 +111,8 @@ class Shaper:
     def lands(self, body: mujoco.MjsBody) -> mujoco.MjsBody:
         """Add a body, fixed to a part, for the lands: the small raised faces on which the part rests.
 
-        The simulator first searches for contacts between bodies, then between their shapes. Two stacked parts
-        touch only at their lands, so with the lands in separate bodies the simulator skips the many other
+        The simulator first searches for contacts between bodies, then between their shapes. Two stacked parts touch
+        only at their lands. If the lands are in bodies of their own, the simulator therefore skips the many other
         shapes of the parts.
         """
         return body.add_body(name=f"{body.name}_lands")
@@ -127,8 +127,8 @@ class Shaper:
         self, body: mujoco.MjsBody, name: str, material: str, surface: tuple[Array, NDArray[np.int32]],
         at: Vector = (0.0, 0.0, 0.0), style: str = "look",
     ) -> mujoco.MjsGeom:  # fmt: skip
-        """Add a visible surface that collides with nothing, from vertices (m, shape (n, 3)) and triangles
-        (shape (m, 3)). A surface of style `scenery` appears only in photographs.
+        """Add a surface that is visible, but collides with nothing. The surface is given by vertices (m, shape (n, 3))
+        and triangles (shape (m, 3)). A surface of style `scenery` appears only in photographs.
         """
         if self.spec.mesh(name) is None:
             self.spec.add_mesh(

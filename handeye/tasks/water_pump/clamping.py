@@ -1,17 +1,17 @@
 """Saves computing time: parts at rest sleep, and parts clamped together move as one.
 
 *Sleep.* MuJoCo puts a group of bodies to sleep once all of them are at rest, and wakes the group when an awake body
-touches it, so sleep has no effect that the working phase could notice. By default, MuJoCo never lets bodies with a
-motor sleep. This default would keep the driver awake. It would also keep the base awake, because the driver's motor
-can turn the thread carriers in the base. In this cell, the driver and the base may sleep: the motor turns a carrier
-only while the bit is on the carrier's screw head, and that contact wakes the base; a driver whose motor is switched on
-is woken explicitly.
+touches it. Therefore sleep does not change how the work goes. By default, MuJoCo never lets bodies with a motor sleep.
+This default would keep the driver awake. It would also keep the base awake, because the driver's motor can turn the
+thread carriers in the base. In this cell, the driver and the base may sleep. The motor turns a carrier only while the
+bit is on the carrier's screw head, and this contact wakes the base. A driver whose motor is switched on is woken
+explicitly.
 
-*Clamping.* Two seated screws press gasket and top on the base, and friction holds them there. From then on, welds hold
-the two layers, and the contacts between the layers are switched off, because these contacts take most of the stack's
-computing time. The contacts are switched on again in three cases: if a hand, a shank or any other body pushes a layer
-sideways with more than the friction force; if such a body lifts a layer with more than the clamping force; or if fewer
-than two screws clamp the layers.
+*Clamping.* Two seated screws press gasket and top on the base, and friction holds gasket and top in place. From then
+on, welds hold the two layers, and the contacts between the layers are switched off, because these contacts take most
+of the stack's computing time. The contacts are switched on again in three cases: if a hand, a shank or any other body
+pushes a layer sideways with more than the friction force; if such a body lifts a layer with more than the clamping
+force; or if fewer than two screws clamp the layers.
 """
 
 from typing import Final
@@ -109,8 +109,8 @@ class Clamping(Mechanism[ClampingState]):
         return False
 
     def _of_outsiders(self, geoms: NDArray[np.int32]) -> list[list[tuple[int, float]]]:
-        """Return, for each layer that bodies outside the stack touch, the contacts with such bodies, each with a sign.
-        The force on the layer is the contact force times this sign.
+        """For each layer that is touched by bodies outside the stack, return the contacts with these bodies, each with
+        a sign. The force on the layer is the contact force times this sign.
         """
         first, second = geoms.T
         touched = [

@@ -81,8 +81,9 @@ def _densities(spec: mujoco.MjSpec, cast: float) -> dict[str, float]:
 
 
 def _weld(spec: mujoco.MjSpec, screw: str, X_BS: Pose) -> None:
-    """Weld a screw to the base and switch off their contacts, because the screw's thread overlaps the wedges of
-    the hole."""
+    """Weld a screw to the base, and switch off the contacts between screw and base, because the screw's thread
+    overlaps the wedges of the hole.
+    """
     weld = spec.add_equality(
         name=f"{screw}_in_thread", type=mujoco.mjtEq.mjEQ_WELD, objtype=mujoco.mjtObj.mjOBJ_BODY,
         name1="base", name2=screw, solref=[0.004, 1.0], solimp=[0.99, 0.999, 0.0001, 0.5, 2.0],

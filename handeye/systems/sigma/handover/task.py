@@ -30,7 +30,7 @@ PRESSED: Final = 0.5  # mm by which a pin may still stand out
 
 
 class Handover(JobTask):
-    """Arm 1 brings pieces to a shared place; arm 2 presses their pins in, and takes them away."""
+    """Arm 1 brings pieces to a shared place; arm 2 presses in the pin of each piece, and takes the piece away."""
 
     name = "handover"
     words = Words(product="the hand-over", done="Each piece is finished and at its place.")

@@ -1,1 +1,1 @@
-"""The insertion: each arm straightens pegs in a rack, and finds the holes for them by force."""
+"""The insertion: each arm straightens pegs in a rack, and measures forces to find the holes for the pegs."""

@@ -102,8 +102,8 @@ class BusOperations:
         task.pc += 1
 
     def _do_found(self, name: str, task: TaskMemory, instruction: Instruction) -> None:
-        """Compare with 0 the counts that axes had at the ends of their rails. A count other than 0 shows that steps
-        were lost since the last ORIGIN.
+        """Check that the count of each axis was 0 at the end of its rail. Any other count shows that steps were lost
+        since the last ORIGIN. Raises Trap if steps were lost.
         """
         lost = []
         for axis in names_of(instruction):
@@ -202,8 +202,8 @@ class BusOperations:
             raise Trap(f"NOTSTARTED: {what.to} has not begun to execute its command")
 
     def _compare(self, name: str, axis: str) -> None:
-        """Raise Trap if the count of a motor is not the count that the program's commands give. If the counts differ,
-        the motor's microcomputer missed or misread a command.
+        """Raise Trap if the count of a motor differs from the position to which the program has sent the motor. If the
+        counts differ, the motor's microcomputer missed or misread a command.
         """
         sent = self.memory.counts.get(axis, 0)
         count = protocol.signed(self.ask(name, protocol.position(axis)))
@@ -228,8 +228,9 @@ class BusOperations:
         return answer
 
     def busy(self, name: str) -> bool:
-        """Return True if an axis or device is executing a command. A force microcomputer always accepts
-        commands."""
+        """Return True if an axis or device is executing a command. The result for a force microcomputer is always
+        False, because it accepts commands at any time.
+        """
         if name.startswith("FORCE"):
             return False
         if name in MAL_DEVICES:
@@ -252,7 +253,7 @@ def names_of(instruction: Instruction) -> tuple[str, ...]:
 
 
 def _takes_time(command: Command) -> bool:
-    """Return True if a command keeps its microcomputer busy for longer than it takes to send the command."""
+    """Return True if a microcomputer is still busy with a command after the command has been sent."""
     fingers = command.op == Op.ACTUATE and command.detail == protocol.DEVICES["HAND"]
     return fingers or command.op in (Op.MOVE, Op.MOVE_SLOW, Op.ORIGIN)
 

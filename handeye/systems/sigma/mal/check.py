@@ -56,8 +56,8 @@ def checked(source: Source) -> tuple[list[Line], list[Diagnostic]]:
 
 
 def in_order(lines: Sequence[Line]) -> list[Line]:
-    """Sort lines by their numbers. Each line belongs to the task of the last TASK statement, in this order, that is at
-    the line or before it.
+    """Sort lines by their numbers. A TASK statement begins a task. The lines from this statement to the line before
+    the next TASK statement belong to the task.
     """
     ordered, task = [], MAIN
     for line in sorted(lines, key=lambda line: line.number):
@@ -77,7 +77,7 @@ def within(statement: Statement) -> Iterator[Statement]:
 
 
 def expressions(statement: Statement) -> Iterator[Expression]:
-    """Yield the expressions that a statement evaluates itself, without those after its THEN and ELSE."""
+    """Yield the expressions in a statement, except the expressions in the statements after THEN and ELSE."""
     yield from statement.values
     yield from (goal.distance for goal in statement.goals)
     if statement.slow is not None:
@@ -103,7 +103,7 @@ def parts(expression: Expression) -> Iterator[Expression]:
 
 
 def reads(statement: Statement) -> Iterator[Token]:
-    """Yield the variables that a statement reads itself, without those after its THEN and ELSE."""
+    """Yield the variables that a statement reads, except the variables in the statements after THEN and ELSE."""
     for expression in expressions(statement):
         for part in parts(expression):
             if isinstance(part, Variable):

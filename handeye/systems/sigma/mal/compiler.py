@@ -387,8 +387,8 @@ class _Ways:
 
     @cached_property
     def _behind(self) -> dict[tuple[str, str, Operand], list[int | None]]:
-        """The lines that follow FORs and GOSUBs, as lists. The key of each list consists of the task, the instruction
-        and the operand.
+        """For each FOR loop and each call of a subroutine, the indices of the lines that follow. The key consists of
+        the task, the instruction and the operand.
         """
         behind: dict[tuple[str, str, Operand], list[int | None]] = {}
         for index, line in enumerate(self._program.lines):

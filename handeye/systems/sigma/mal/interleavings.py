@@ -1,9 +1,9 @@
 """Tries every order in which the tasks of a program may continue. States are hashed, so that each state is
 examined only once.
 
-A statement is one act. Motions and delays may take any time. Statements that do not concern another task are
-not tried in different orders, because the order has no effect. Motions of an axis that only one task uses end
-at once.
+A statement is one act. The search assumes that a motion or delay may take any length of time. Statements that do not
+concern another task are not tried in different orders, because the order has no effect. If only one task uses an axis,
+each motion of this axis is treated as if it took no time.
 """
 
 from collections import deque
@@ -114,7 +114,7 @@ class _Search:
 
     @cached_property
     def rails(self) -> tuple[tuple[str, str], ...]:
-        """For each rail along which arms of different tasks move, the X axes of its two arms."""
+        """For each rail whose two arms are used by different tasks, the X axes of these arms."""
         users = self._users
         return tuple(pair for pair in RAILS if len(users.get(pair[0], set()) | users.get(pair[1], set())) > 1)
 
@@ -256,7 +256,7 @@ class _Search:
     # -- looking --------------------------------------------------------------------------------------
 
     def _see_events(self, key: bytes, state: _State, act: Act) -> None:
-        """Find flags that an act sets although they are set already, so that a signal is lost."""
+        """Record each flag that an act sets although the flag is already set. Such an act loses a signal."""
         taken = {each.operand for each in self.program.code if each.op == "TAKEF"}
         for event in self.events:
             lost = (

@@ -36,8 +36,9 @@ class MalLanguage(OwnLanguage):
         return checked(source)[1]
 
     def explanation(self, word: str) -> str | None:
-        """Return the meaning of a code or word of MAL, or None if MAL has no such code or word. If the arm language
-        also has the word, `handeye sigma words` explains the meaning in MAL.
+        """Return the meaning of a code or word of MAL, or None if MAL has no such code or word. `handeye explain`
+        gives the meaning in the arm language if both languages have the word; `handeye sigma words` always gives the
+        meaning in MAL.
         """
         return code_explained(word) or explained(word)
 

@@ -52,8 +52,8 @@ class Loop(Record, frozen=True, kw_only=True):
 
 
 class Outgoing(Record, frozen=True, kw_only=True):
-    """A command that waits to be sent. A command to a motor is given by its goal position, any other command by its
-    five bytes.
+    """A command that waits to be sent. For a motion, `target` is the goal position; for any other command, `command`
+    holds the five bytes.
     """
 
     to: str  # the axis or device that has to be free

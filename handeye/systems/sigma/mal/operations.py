@@ -52,8 +52,8 @@ class Operations(BusOperations):
                 self._acts[name.removeprefix("_do_").upper()] = getattr(self, name)
 
     def run(self, name: str, task: TaskMemory) -> int:
-        """Execute instructions until the statement ends or waits. Returns the number of arithmetic
-        instructions.
+        """Execute instructions until the statement ends or waits. Returns the number of arithmetic instructions that
+        were executed.
         """
         task.amid, began, calculated = True, self.program.line_of(task.pc).begin, 0
         try:

@@ -1,4 +1,6 @@
-"""Says what is wrong with a program in some order of its tasks, for referees of exercises and benches."""
+"""Lists the problems that a program has if its tasks run in certain orders. The referees of exercises and benches use
+this list.
+"""
 
 from collections.abc import Iterator
 from typing import Final
@@ -33,9 +35,9 @@ def problems(program: MalProgram, found: Interleavings) -> Iterator[tuple[bool, 
 
 
 def order_problems(name: str, text: str) -> list[tuple[bool, str]]:
-    """Return the problems that a program has in some order of its tasks, the worst problem first. Each problem is a
-    tuple: whether the problem escapes the program's notice, and a sentence that describes the problem. Raises BadFile
-    if the text has errors.
+    """Return the problems that a program has if its tasks run in certain orders, the worst problem first. Each problem
+    is a tuple: whether the problem escapes the program's notice, and a sentence that describes the problem. Raises
+    BadFile if the text has errors.
     """
     program = program_of(name, text)
     return [(silent, f"{what}: {told}") for silent, what, told in problems(program, interleavings(program))]

@@ -1,4 +1,4 @@
-"""Splits a line of MAL into tokens. Mistakes are returned. No text makes the scanner raise an exception."""
+"""Splits a line of MAL into tokens. The scanner returns mistakes, and never raises an exception."""
 
 import re
 from typing import Final, Literal, NamedTuple

@@ -1,4 +1,4 @@
-"""Reads the tokens of a line one by one. A token that does not fit raises an exception."""
+"""Reads the tokens of a line one by one. Raises an exception at a token that the grammar does not allow."""
 
 from collections.abc import Callable
 from typing import Final, NoReturn

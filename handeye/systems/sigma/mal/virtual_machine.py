@@ -1,4 +1,4 @@
-"""The virtual machine, which schedules the tasks, one statement of each in turn, and handles aborts and deadlocks.
+"""The virtual machine of MAL. It executes one statement of each task in turn, and handles aborts and deadlocks.
 
 The virtual machine uses the simulated machine only through `ports/microbus.py`. Between two statements, the memory of
 the virtual machine is its complete state.
@@ -154,8 +154,9 @@ class VirtualMachine:
         self.memory.turn = ""
 
     def type_number(self, text: str, task: str = "") -> None:
-        """Give a number to a task that waits for one. Raises InvalidInput if no task waits, or if the text is
-        not a number."""
+        """Give a number to a task that waits for one. Raises InvalidInput if no task waits for a number, or if the
+        text is not a number.
+        """
         waiting = [name for name, each in self.memory.tasks.items() if isinstance(each.waits, TypedNumber)]
         if (task and task not in waiting) or not waiting:
             raise BadArgument(
@@ -262,7 +263,7 @@ class VirtualMachine:
         )  # fmt: skip
 
     def _spend(self, microseconds: int) -> None:
-        """Let the time pass that the central computer needs for its work."""
+        """Advance the clock by the time that the central computer needs for its work."""
         self._poll()
         until = self.machine.now + microseconds
         while self.machine.now < until:
@@ -283,8 +284,8 @@ class VirtualMachine:
     # -- aborts --------------------------------------------------------------------------------------------
 
     def _see_aborts(self) -> None:
-        """If a motor has raised the interrupt, query the motor's position. The task that moved the motor continues as
-        its ON ABORT says; if the task has no ON ABORT, the program stops.
+        """If a motor has raised the interrupt, query the motor's position. The task that moved the motor continues at
+        the line in the task's ON ABORT statement. If the task has no such statement, the program stops.
         """
         if not self.machine.interrupt:
             return

@@ -1,8 +1,8 @@
 """Computes the pulse trains of the motor microcomputers. A counter that divides a 2 MHz clock determines the
 times of the steps.
 
-A few numbers define a train. The times of its pulses have a closed form, so the simulated firmware needs no
-time steps.
+A few numbers define a train. The times of the pulses are computed directly from these numbers, so the firmware is not
+simulated in small intervals of time.
 """
 
 import math
@@ -131,7 +131,7 @@ def stop(speed: float, curve: Curve) -> Train:
 
 
 def stopped(train: Train, curve: Curve, ticks: int, *, cut: bool = False) -> Pulses:
-    """Return the pulses of a train that is interrupted after some ticks. The train stops by the steepest ramp or, if
+    """Return the pulses of a train that is interrupted after some ticks. The train ends with the steepest ramp or, if
     `cut` is True, abruptly. An abrupt stop is a fault.
     """
     pulses = train.pulses

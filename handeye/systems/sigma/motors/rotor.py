@@ -54,8 +54,9 @@ class Drive:
 
     @property
     def starts(self) -> bool:
-        """True if a rotor at rest can follow the jump to the start/stop speed, because its pole can absorb the
-        energy of that jump."""
+        """True if a rotor at rest can follow the jump to the start/stop speed. The rotor can follow if its pole can
+        absorb the energy of the jump.
+        """
         return _holds(self, CURVES[0].start, self.start_force)
 
 
@@ -197,7 +198,9 @@ def lag_for(force: float, most: float) -> float:
 
 
 def _catches(drive: Drive, field: float, speed: float) -> bool:
-    """Return True if a field catches a rotor that moves at another speed."""
+    """Return True if the field can catch the rotor, although the field and the rotor move at different speeds
+    (steps/s).
+    """
     return _holds(drive, abs(field - speed), drive.pull_out(field))
 
 

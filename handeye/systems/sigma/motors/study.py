@@ -1,4 +1,4 @@
-"""Studies one axis: a move, the force that it requires, and whether the rotor follows it."""
+"""Studies a move of one axis: the force that the move requires, and whether the rotor follows the pulses."""
 
 import math
 from typing import Final, Literal

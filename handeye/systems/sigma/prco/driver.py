@@ -21,7 +21,7 @@ class DriverState(Record, frozen=True, kw_only=True):
 
 class HandDriver(Mechanism[DriverState]):
     """The screwdriver of arm 2. It drives screws in while its device has the value 1, and drives screws out while its
-    device has the value 2. The bit is a permanent magnet.
+    device has the value 2. The tip of the screwdriver is a permanent magnet.
     """
 
     name = "screwdriver"
@@ -37,7 +37,7 @@ class HandDriver(Mechanism[DriverState]):
         return _SPEEDS.get(self._state.value, 0.0)
 
     def actuated(self, number: int, devices: Sequence[int]) -> None:
-        """Set the screwdriver as the outputs of its hand microcomputer say."""
+        """Set the screwdriver to the value that its hand microcomputer gives out."""
         if number == _HAND:
             self._state = DriverState(value=devices[DEVICES["DRIVER"]])
 

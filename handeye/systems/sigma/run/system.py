@@ -1,4 +1,4 @@
-"""Builds the runs of MAL programs, and provides the texts with which the stepper describes them."""
+"""Builds the runs of MAL programs, and provides the texts with which the stepper describes a run."""
 
 from collections.abc import Mapping
 from typing import Final
@@ -21,7 +21,7 @@ OWN: Final = "handover.mal"  # the program that is run if none is named
 
 
 class SigmaSystem(System):
-    """The system that executes MAL programs on the machine of their plan."""
+    """The system that executes a MAL program on the machine that the plan names."""
 
     name = ENTRY.name
     plan = MalPlan

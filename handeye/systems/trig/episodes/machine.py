@@ -37,7 +37,7 @@ _UPPER: Final = np.array([spec.upper for spec in _AXES])
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TaughtFacts(Facts):
-    """What a policy may know of what the arm was taught."""
+    """The facts about the taught program that a policy may know."""
 
     taught: Mapping[str, Array]  # the positions by name, with the errors of teaching: six numbers, m and rad
     places: Array  # of the blocks on the pallet, computed from the positions: x and y, shape (blocks, 2), m
@@ -76,7 +76,7 @@ class ControlledPurbrick(ControlledMachine):
 
 
 class PurbrickControls(Controls):
-    """The arm of an episode. Its set-points are what the program has commanded last."""
+    """The arm of an episode. Its set-points are the values that the program commanded last."""
 
     def __init__(self, job: TaughtJob) -> None:
         self._job, memory = job, job.arm.memory

@@ -18,8 +18,8 @@ from handeye.systems.trig.language.running import Interpreter
 
 
 class TaughtPolicy(Policy):
-    """Runs the taught program from its first step. If the arm cannot reach a place, it stands still until the time
-    limit.
+    """Runs the taught program from its first step. If the arm cannot reach a place, the arm stands still until the
+    time limit.
     """
 
     facts: TaughtFacts

@@ -101,12 +101,14 @@ class TaughtJob(ABC):
 
     @abstractmethod
     def teach(self, halted: "Halted") -> None:
-        """Enter the program, with the teaching errors of this world in its positions, and prepare the table."""
+        """Enter the program, and prepare the table. The positions in the program contain the teaching errors of this
+        world.
+        """
 
     @abstractmethod
     def lay(self) -> None:
-        """Put the table into the state that it has after teaching. To resume a saved run, call this before you restore
-        the saved state.
+        """Put the table into the state that it has after teaching. To resume a saved run, call this method before you
+        restore the saved state.
         """
 
     @property

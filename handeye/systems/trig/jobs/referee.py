@@ -26,8 +26,8 @@ Poses = Mapping[str, Pose]  # poses of the blocks relative to the platter, by na
 
 
 def judge_placed(before: Poses, now: Poses, places: Sequence[Place]) -> Findings:
-    """Check that the blocks from the top of a stack lie at `places`, in this order, and that all other blocks are
-    where they were before.
+    """Check that the top block of a stack lies at the first of `places`, the next block at the second place, and so
+    on. All other blocks must be where they were before.
     """
     taken = list(before)[::-1][: len(places)]
     there = [now[name] for name in taken]

@@ -1,5 +1,5 @@
-"""The Purbrick arm for TRIG, with blocks and a bucket on its platter. The user places the blocks and the bucket
-between commands.
+"""The Purbrick arm for TRIG, with blocks and a bucket on its platter. Between two commands, the user can place blocks
+and the bucket on the platter.
 """
 
 import math

@@ -71,7 +71,7 @@ class Pallet(_BlocksTask):
         return self.judge_built(initial_scene(truth), stands(truth.data, initial_scene(truth).blocks))
 
     def judge_built(self, seen: InitialScene, stood: ObservedScene) -> Findings:
-        """Return findings on the finished work at one moment."""
+        """Return the findings on the work in the scene `stood`, which was observed at one moment."""
         placed = judge_placed(seen.poses, stood.poses, self.places(seen))
         return {**placed, "hand": _ends_at(seen, stood, "DONE")}
 

@@ -1,5 +1,6 @@
-"""The witness, which records the true scene before a run and before its reversal. Only the referee uses these
-records."""
+"""The witness. It records the true scene before a program runs forwards, and again before the program runs backwards.
+Only the referee uses these records.
+"""
 
 from collections.abc import Iterable
 from typing import Final

@@ -28,8 +28,9 @@ from handeye.systems.trig.language.styled import UNICODE, Line, Style, Symbols, 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Cell:
-    """A step at its place on the display, or a link to a step whose place is elsewhere. `branch` is `n` or `g`
-    for the first step of a branch."""
+    """A step at its place on the display, or a link to a step whose place is elsewhere. For the first step of a
+    branch, `branch` is `n` (normal) or `g` (guarded); for all other steps, it is empty.
+    """
 
     row: int
     column: int
@@ -49,8 +50,9 @@ class Elbow:
 
 @dataclass(slots=True)
 class _Chain:
-    """A chain of steps, with the chains to its right. For the row of each guarded step, `hung` has the chain that
-    begins there, and `shift` has the column offset of this chain.
+    """A chain of steps, with the chains to its right. The keys of `hung` and `shift` are the rows of the guarded
+    steps. `hung` has the chain that begins with the guarded son of such a step; `shift` has the number of columns by
+    which this chain is farther right.
     """
 
     items: list[tuple[Node, bool, str]] = field(default_factory=list)
@@ -77,7 +79,7 @@ class Layout:
 
 
 def layout(graph: Graph, *, top: bool = False) -> Layout:
-    """Place all steps of a program, and optionally its top. Bloops are not drawn."""
+    """Place all steps of a program, except bloops. If `top` is True, also place the top of the program."""
     chains = _chains(graph, top=top)
     for chain in reversed(chains):
         _measure(chain)
@@ -118,8 +120,8 @@ def _is_link_behind(graph: Graph, id: int) -> bool:
 
 
 def _measure(chain: _Chain) -> None:
-    """Compute the size of a chain with all its attached chains. The farther down a chain is attached, the nearer to
-    this chain it is placed.
+    """Compute the size of a chain with all its attached chains. The chain that is attached lowest is placed nearest to
+    `chain`.
     """
     chain.height = len(chain.items)
     below: list[tuple[int, int]] = []

@@ -4,7 +4,8 @@ that may follow it, and any number of fathers, from which it is reached.
 One of the edges that lead to a step is the step's own edge, which determines where the step is drawn. All other edges
 to the step are links. Together, the steps' own edges form a tree that starts at the top and contains every step. A
 loop has a partner (bloop) above its target step, so that the loop can also be reversed. If several loops return to one
-step, the nearest loop below the step owns the nearest bloop above the step, whichever loop was made first.
+step, the nearest loop below the step owns the nearest bloop above the step. The order in which the loops were made
+does not matter.
 """
 
 from collections import deque
@@ -27,7 +28,7 @@ TOP_NAME: Final = "**TOP**"
 
 @dataclass(slots=True, kw_only=True, eq=False)
 class Node:
-    """One step. Only the graph changes its edges."""
+    """One step. Only the methods of `Graph` change the edges of a node."""
 
     id: int
     type: NodeType
@@ -149,7 +150,7 @@ class Graph:
         return Node(id=self._next - 1, type=type, sons=[NONE, NONE] if type == "guarded" else [NONE])
 
     def attach(self, father: int, branch: int, son: int, *, link: bool = False) -> None:
-        """Make a node the son of another node on a branch, replacing the present son there."""
+        """Make the node `son` the son of the node `father` on a branch. It replaces the present son on this branch."""
         node = self[father]
         before, node.sons[branch] = node.sons[branch], son
         node.links.discard(branch)
@@ -164,8 +165,8 @@ class Graph:
         self[son].last_father = father
 
     def insert(self, after: int, branch: int, node: Node) -> None:
-        """Insert a node below another node. The son that was there becomes the son of the new node, on the normal
-        branch if the new node is guarded.
+        """Insert a node on a branch of another node. The present son on this branch becomes the son of the new node.
+        If the new node is guarded, this son is on its normal branch.
         """
         self.nodes[node.id] = node
         son = self[after].sons[branch]
@@ -268,8 +269,8 @@ def _is_cut(graph: Graph, node: Node) -> bool:
 
 
 def _mend_tree(graph: Graph) -> None:
-    """Give every node exactly one edge that is not a link. A node keeps its own edge if that edge is still connected
-    to the top.
+    """Give every node exactly one incoming edge that is not a link. A node keeps its own edge if that edge is still
+    connected to the top.
     """
     placed = {TOP}
     _follow(graph, TOP, placed)
@@ -287,8 +288,8 @@ def _mend_tree(graph: Graph) -> None:
 
 
 def _follow(graph: Graph, start: int, placed: set[int]) -> None:
-    """From a node, follow the nodes' own edges, and place all nodes that they reach. An edge to a node that is already
-    placed becomes a link.
+    """From a node, follow the edges that are not links, and place all nodes to which these edges lead. An edge to a
+    node that is already placed becomes a link.
     """
     waiting = [start]
     while waiting:

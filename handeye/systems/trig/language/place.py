@@ -21,7 +21,9 @@ Measures = tuple[float, float, float, float, float, float]  # mm and deg, as sho
 
 
 class Place(NamedTuple):
-    """A place of the hand, or a difference of two places (m and rad). Angles are within half a turn of 0."""
+    """A place of the hand, or a difference of two places (m and rad). Angles are from minus half a turn to half a
+    turn.
+    """
 
     x: float = 0.0
     y: float = 0.0

@@ -99,8 +99,8 @@ class TrigProgram:
         self.forgotten, self.taken, self.cut, self.paused = False, None, None, NONE
 
     def relative_by_default(self) -> bool:
-        """Return True if a new move is relative by default: if the nearest move at or above the active step is
-        relative.
+        """Return True if a new move is relative by default. A new move is relative if the nearest move at or above the
+        active step is relative.
         """
         id, seen = self.cursor, {TOP}
         while id not in seen:

@@ -1,4 +1,4 @@
-"""The record of a program's runs that other programs can read."""
+"""A record of the runs of a TRIG program, in a form that other software can read."""
 
 from collections.abc import Sequence
 

@@ -129,7 +129,7 @@ class Interpreter:
         return self._from_top(None)
 
     def forward(self, wanted: int) -> RunResult:
-        """Execute a number of steps, from the active step on."""
+        """Execute a number of steps, beginning at the active step."""
         program = self.program
         halted_here = program.paused == program.cursor or self._is_cut(program.active)
         if program.cursor in (TOP, program.first) and not halted_here:
@@ -235,7 +235,7 @@ class Interpreter:
         return self.arm.here().moved(position.data.turned_back() if node.negate else position.data)
 
     def _is_cut(self, node: Node) -> bool:
-        """Return True if the step was halted on its way, and nothing has been executed since."""
+        """Return True if the move of the step was halted, and nothing has been executed since."""
         cut, trail = self.program.cut, self.program.trail
         return cut is not None and cut.done.node == node.id and bool(trail) and trail[-1] is cut.done
 

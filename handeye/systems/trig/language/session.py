@@ -96,7 +96,7 @@ class Session:
         return self.desk.ask("Normal or guarded? ", read_branch)
 
     def open_branch(self, given: int | None) -> int:
-        """Return the branch of the active step below which a new step is inserted. Raises Refused if that
+        """Return the branch of the active step on which a new step is inserted. Raises Refused if that
         branch is a link.
         """
         branch = self.branch(given)

@@ -124,7 +124,7 @@ def target_hint(session: Session) -> str:
 
 
 def link(session: Session, given: Arguments) -> None:
-    """L: continue at an existing step."""
+    """L: make an existing step the next step after the active step."""
     program, target = session.program, session.step(given.step or "")
     if program.cursor == TOP or target.id == TOP:
         raise Refused("the top cannot have a link; a link leads from one step to another")

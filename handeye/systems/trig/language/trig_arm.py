@@ -1,7 +1,7 @@
 """The interface of an arm for TRIG, and the obstacles that stop the arm while it reverses a step.
 
-A reversal assumes that the table is as the step left it. Since then, a block may have fallen or been taken
-away, so every step is reversed with guards, and the first guard that trips ends the reversal.
+A reversal assumes that the table is as the step left it. But a block may have fallen or been taken away after the
+step. Therefore every step is reversed with guards, and the first guard that trips ends the reversal.
 """
 
 from abc import ABC, abstractmethod
@@ -41,7 +41,7 @@ class LeftBehind(Record, frozen=True, kw_only=True, tag="left_behind"):
 
 
 class MissingContact(Record, frozen=True, kw_only=True, tag="missed"):
-    """A guarded move made contact here, but the arm now meets no object."""
+    """A guarded move made contact at this place, but the arm now meets no object."""
 
 
 class MissingSupport(Record, frozen=True, kw_only=True, tag="unsupported"):
@@ -121,8 +121,8 @@ class TrigArm(ABC):
 
     @abstractmethod
     def back(self, goal: Place, halted: Halted, met: float = 0.0) -> Literal["halted"] | Obstacle | None:
-        """Return to an earlier place with a force limit of 1.5 times `met` (N). Returns None if the arm reached
-        the place, or else the reason why it stopped.
+        """Return to an earlier place with a force limit of 1.5 times `met` (N). Returns None if the arm reached the
+        place. If the arm stopped before the place, returns the reason.
         """
 
     @abstractmethod

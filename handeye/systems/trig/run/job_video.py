@@ -59,8 +59,8 @@ class JobVideo:
         bench.after_period.append(look)
 
     def write(self, job: TaughtJob, ended: float | None, told: Callable[[int, int], None]) -> None:
-        """Write the video. Either the whole file is written, or nothing. The reversal began at `ended` (s).
-        `told` is called for each frame.
+        """Write the video. Either the whole file is written, or nothing. `ended` is the time (s) at which the program
+        ended and the reversal began. `told` is called for each frame.
         """
         if not self._moments:
             raise Refused(f"the arm has not moved, so {self._path} was not made")

@@ -27,7 +27,7 @@ class CompletedStep(Record, frozen=True, kw_only=True):
 
 
 class Turn(Record, frozen=True, kw_only=True):
-    """Where a job began its reversal."""
+    """The point at which the reversal of a job began."""
 
     steps: int  # executed by then
     ended: bool  # the program was complete

@@ -1,4 +1,4 @@
-"""TRIG as a system: the capabilities of its runs, the words for them, and the files that they leave."""
+"""TRIG as a system: what a TRIG run can do, in which words a run is described, and which files a run leaves."""
 
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path

@@ -1,3 +1,3 @@
-"""Faults of the pump's cell. A fault is present before a run, begins during a run, or is made between the work and its
-reversal.
+"""Faults of the pump's cell. A fault is present before a run, begins during a run, or is made after the work and
+before the arm undoes the work.
 """

@@ -289,8 +289,8 @@ def bad_threads(faults: Sequence[Fault], how: Literal["scarred", "crosses"]) -> 
 
 
 def slipping_screws(faults: Sequence[Fault], count: int) -> frozenset[int]:
-    """Return the indices of the screws on which the bit slips, so that they enter no thread: screws without a
-    slot, or all screws if the bit is smooth.
+    """Return the indices of the screws on which the bit slips: screws without a slot, or all screws if the bit is
+    smooth. Such a screw enters no thread.
     """
     if any(fault.name == _SMOOTH for fault in faults):
         return frozenset(range(count))
@@ -298,7 +298,9 @@ def slipping_screws(faults: Sequence[Fault], count: int) -> frozenset[int]:
 
 
 def _numbered(faults: Sequence[Fault], thing: str, what: str) -> frozenset[int]:
-    """Return the numbers, counted from 0, of the faults whose names have the form THING.NUMBER.WHAT."""
+    """Return the numbers in the names of faults, if the names have the form THING.NUMBER.WHAT. The returned numbers
+    are counted from 0.
+    """
     names = (fault.name.split(".") for fault in faults)
     return frozenset(
         int(name[1]) - 1 for name in names if len(name) == 3 and (name[0], name[2]) == (thing, what)

@@ -76,7 +76,9 @@ def _jam(scene: Scene, _: MishapState) -> bool:
 
 
 def _stop(angle: float) -> Mishap:
-    """Return a mishap in which the rotor meets a stop at an angle (rad) from its present position, on one side."""
+    """Return a mishap in which the rotor meets a stop at an angle (rad) from the rotor's present position. The stop is
+    only on one side.
+    """
 
     def act(scene: Scene, _: MishapState) -> bool:
         joint = _rotor(scene)[0]

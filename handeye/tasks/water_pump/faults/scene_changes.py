@@ -85,8 +85,8 @@ def thicken(spec: mujoco.MjSpec, factor: float) -> None:
 
 
 def tear(spec: mujoco.MjSpec, side: float) -> None:
-    """Remove from the gasket a square with the side `side` (m), the screw hole in its middle, and the land of that
-    hole.
+    """Remove a square with the side `side` (m) from the gasket. The square contains a screw hole in its middle, and
+    the land of this hole.
     """
     from handeye.tasks.water_pump.scene.solids import TORN_HOLE, gasket  # slow to import, and rarely needed
 

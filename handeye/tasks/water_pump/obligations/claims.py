@@ -44,7 +44,7 @@ class PumpClaims:
         self.places = PumpPlaces(screws)
 
     def head(self, hole: int) -> Claim:
-        """Return the claim that a head is at its nominal height above the face of the base."""
+        """Return the claim that the head of a screw is at its nominal height above the face of the base."""
         places = self.places
         top = base_top() + places.head_height
         where = places.over_hole(hole, 0.35 * INCH, top - 0.02 * INCH, top + 0.8 * INCH)

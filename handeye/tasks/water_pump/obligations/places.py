@@ -43,7 +43,7 @@ class PumpPlaces:
 
     @cached_property
     def head_height(self) -> float:
-        """Height (m) of a head above the face of the base when six screws press the layers together."""
+        """Height (m) of a screw head above the face of the base when six screws press the layers together."""
         d = dimensions()
         return d("gasket.thickness") + d("top.flange") + d("screw.head_height") - PRESSED
 

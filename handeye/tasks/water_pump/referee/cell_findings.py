@@ -104,8 +104,8 @@ def _altered(truth: Truth) -> dict[str, list[str]]:
 
 
 def _as_it_is_to_be(truth: Truth) -> mujoco.MjModel:
-    """Return the scene of the design with the changes that devices may make, and with the properties that other
-    findings judge.
+    """Return the scene of the design, but with the present value of each quantity that devices may change or that
+    another finding judges.
     """
     model, scene, holes = truth.model, copy.deepcopy(truth.drawn), holes_of(truth)
     (threads,) = (part for part in truth.mechanisms if isinstance(part, Threads))
@@ -142,7 +142,7 @@ def _bonds(left: SettledState, truth: Truth) -> int:
 
 
 def _strained(left: SettledState, weld: int) -> bool:
-    """Return True if a weld would pull its layer away from where the layer lies."""
+    """Return True if a weld would pull its layer away from the layer's present position."""
     model, figures, R = left.model, left.model.eq_data[weld], np.zeros(9)
     X_BP = left.relative(model.body(model.eq_obj2id[weld]).name, model.body(model.eq_obj1id[weld]).name)
     mujoco.mju_quat2Mat(R, figures[6:10])
@@ -188,8 +188,8 @@ def _upright(measured: SettledState, bodies: Sequence[str], limit_deg: float, su
 
 
 def _put_away(measured: SettledState, hidden: Sequence[int]) -> Finding:
-    """Judge whether the hidden bodies of screws in threads are on the tray, and whether any loose body that is no part
-    of the pump, such as a nut in a scene of the user's own, is where the drawing puts it.
+    """Judge whether the hidden bodies of screws in threads are on the tray. Also judge whether every loose body that
+    is no part of the pump is where the drawing puts it, for example a nut in a user's own scene.
     """
     drawn, joints = measured.drawn, measured.drawn.jnt_type == mujoco.mjtJoint.mjJNT_FREE
     loose = {drawn.body(body).name for body in drawn.jnt_bodyid[joints]}

@@ -27,9 +27,9 @@ _METAL: Final = (
 def specification(world: PumpWorld) -> mujoco.MjSpec:
     """Return the scene before compilation, so that shapes can be added or the scene saved.
 
-    The bodies of the scene are the base (with carrier0 and so on), gasket, top (with rotor), pin0, pin1, screw0 and so
-    on, driver (with bit), the fixtures, and the arm's bodies, whose names begin with `stanford/`. The world frame is
-    that of the table.
+    The bodies of the scene are `base` (which contains `carrier0`, `carrier1` and so on), `gasket`, `top` (which
+    contains `rotor`), `pin0`, `pin1`, `screw0`, `screw1` and so on, `driver` (which contains `bit`), the fixtures, and
+    the arm's bodies, whose names begin with `stanford/`. The world frame is that of the table.
     """
     spec = mujoco.MjSpec.from_file(str(scenes() / "water_pump" / "workcell.xml"))
     add_arm(spec, world)  # first, because free bodies added before the arm would shift its joints

@@ -107,9 +107,9 @@ def _add_tapped_hole(shaper: Shaper, body: mujoco.MjsBody, d: Dimensions, number
     """Add the bore and the thread.
 
     The thread is a carrier body. Its frame is the frame of the screw in the thread, with the origin at the screw's
-    point. The pitch couples the carrier's slide to its turn. Head and shank touch nothing until the cell engages a
-    screw. Nevertheless, head and shank are compiled with the widest contact bits, because contact bits can be narrowed
-    at run time but not widened.
+    point. The carrier's slide and its rotation are coupled by the pitch of the thread. Head and shank touch nothing
+    until the cell engages a screw. Nevertheless, head and shank are compiled with the widest contact bits, because
+    contact bits can be narrowed at run time but not widened.
     """
     top, depth, (x, y) = base_top(), d("base.screw_holes.depth"), at
     tap = Bore(

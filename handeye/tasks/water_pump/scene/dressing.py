@@ -49,7 +49,7 @@ nearly parallel to the light and look speckled.
 
 
 def add_reels(shaper: Shaper) -> None:
-    """Add the fronts of two tape drives. Each drive has two reels, and below them heads. One reel is nearly full."""
+    """Add the fronts of two tape drives. Each drive has two reels, and heads below the reels. One reel is nearly full."""
     body = shaper.spec.worldbody
     for drive in (0, 1):
         (left, front, _), (right, _, top) = cabinet(drive)
@@ -159,8 +159,8 @@ _BACK, _FRONT = -1.36, -0.10  # where the cables begin and end along the boom, m
 
 
 def add_boom_cables(shaper: Shaper) -> None:
-    """Add three cables in clips along the boom, and the loop of the cables from the end of the boom to the motor
-    behind it.
+    """Add three cables in clips along the boom, and the loop in which the cables hang between the end of the boom and
+    the motor behind the boom.
     """
     boom = shaper.spec.body(f"{ARM}link3")
     for number, y in enumerate((_MIDDLE - 0.006, _MIDDLE, _MIDDLE + 0.006)):
