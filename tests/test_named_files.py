@@ -20,6 +20,7 @@ NAMED = re.compile(
 EXAMPLES = {"gasket.al", "pins.al", "hole.al", "lib/hole.al", "first.al", "first.toml", "job.al", "job.toml"}
 EXAMPLES |= {
     "seven.al",
+    "see.al",
     "touch.al",
     "touch.toml",
     "find.al",

@@ -127,9 +127,9 @@ class Right(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
         if self.state == "apart":
             found = dict(task.judge_apart(truth))
         elif self.state == "on_face":
-            if not isinstance(task, InsertionTask):
+            if self.state not in task.referees:
                 raise BadFile(f"the task {task.name} has no referee for a pin on the face of a plate")
-            found = dict(task.judge_on_face(truth))
+            found = dict(task.referees[self.state](truth))
         else:
             found = dict(findings_so_far(runner))
         if self.only is not None:

@@ -51,8 +51,8 @@ def joined(pieces: Iterable[str], between: str = "") -> Markup:
 
 
 def lines(rows: Iterable[str]) -> Markup:
-    """Build a text whose lines stay as they are."""
-    return element("pre", joined(rows, Markup("\n")))
+    """Build a text whose lines stay as they are. The keyboard reaches it, because it scrolls in a narrow window."""
+    return element("pre", joined(rows, Markup("\n")), tabindex="0")
 
 
 def section(name: str, heading: str, *children: Content) -> Markup:

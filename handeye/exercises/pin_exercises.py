@@ -3,8 +3,9 @@
 from typing import Final
 
 from handeye.core.units import MILLIMETRE
-from handeye.exercises.pin_exercise import PinExercise
-from handeye.exercises.pin_trial import PinWorlds
+from handeye.exercises.arm_exercise import ArmExercise
+from handeye.exercises.arm_trial import ArmWorlds
+from handeye.trials.insertion import TASK
 
 MOST_FORCE: Final = 30.0
 """Greatest permitted force (N). In 2000 trials, the bench's own search reached 20 N; the search of 1973 reached about
@@ -14,17 +15,21 @@ BESIDE: Final = 20 * MILLIMETRE  # so far beside its taught place, the hole is o
 _USUAL: Final = "worlds in which the hole is off its taught place by about 1 mm along each axis"
 _BESIDE: Final = "worlds in which the hole is 20 mm off its taught place"
 
-TOUCH: Final = PinExercise(
+_TAUGHT: Final = "insertion.toml"  # the positions of all these exercises
+
+TOUCH: Final = ArmExercise(
     name="touch",
     session=1,
     title="stand the pin on the plate, gently",
     brief="The hand holds the pin about .13 in over the face of the plate; the exact distance differs from world to "
     "world. Move the pin down until it stands on the face, and stop there. A motion by a fixed distance stops above "
     "the face in some worlds, and presses on the face in others.",
+    task=TASK,
+    taught=_TAUGHT,
     start="touch.al",
-    worlds=(PinWorlds(seeds=range(20), told=_BESIDE, set={"plate.x": BESIDE, "plate.y": 0.0}),),
+    worlds=(ArmWorlds(seeds=range(20), told=_BESIDE, set={"plate.x": BESIDE, "plate.y": 0.0}),),
     most_force=MOST_FORCE,
-    on_face=True,
+    referee="on_face",
     hints=(
         (
             "reported success",
@@ -37,14 +42,16 @@ TOUCH: Final = PinExercise(
         ("called the operator", "A motion with a STOP must be long enough to meet the plate in every world."),
     ),
 )
-FIND: Final = PinExercise(
+FIND: Final = ArmExercise(
     name="find",
     session=2,
     title="find the hole by force",
     brief="The hole is not exactly where it was taught. Search for it: lift the pin, move it to the next place, and "
     "try again, until the pin goes in.",
+    task=TASK,
+    taught=_TAUGHT,
     start="find.al",
-    worlds=(PinWorlds(seeds=range(20), told=_USUAL, set={}),),
+    worlds=(ArmWorlds(seeds=range(20), told=_USUAL),),
     hints=(
         (
             "called the operator",
@@ -57,14 +64,16 @@ FIND: Final = PinExercise(
         ),
     ),
 )
-GENTLY: Final = PinExercise(
+GENTLY: Final = ArmExercise(
     name="gently",
     session=2,
     title="find the hole without hitting the plate hard",
     brief="The program of 1973 strikes the plate at 1 in/s. The force of an impact grows with the speed. Change the "
     "program so that the pin still finds its hole, and the force between pin and plate stays small.",
+    task=TASK,
+    taught=_TAUGHT,
     start="gently.al",
-    worlds=(PinWorlds(seeds=range(20), told=_USUAL, set={}),),
+    worlds=(ArmWorlds(seeds=range(20), told=_USUAL),),
     most_force=MOST_FORCE,
     hints=(
         (
@@ -86,16 +95,18 @@ GENTLY: Final = PinExercise(
         ),
     ),
 )
-HONEST: Final = PinExercise(
+HONEST: Final = ArmExercise(
     name="honest",
     session=4,
     title="report success only if the pin is in",
     brief="In half of the worlds, the hole is too far away to be found. There the program must call the operator: a "
     "program that ends as if all were well is worse than one that stops. In the other worlds, the pin must go in.",
+    task=TASK,
+    taught=_TAUGHT,
     start="honest.al",
     worlds=(
-        PinWorlds(seeds=range(10), told=_USUAL, set={}),
-        PinWorlds(seeds=range(10, 20), told=_BESIDE, set={"plate.x": BESIDE, "plate.y": 0.0}, calls=True),
+        ArmWorlds(seeds=range(10), told=_USUAL),
+        ArmWorlds(seeds=range(10, 20), told=_BESIDE, set={"plate.x": BESIDE, "plate.y": 0.0}, calls=True),
     ),
     hints=(
         (
@@ -106,4 +117,3 @@ HONEST: Final = PinExercise(
         ("called the operator", "The hole was within reach here. Search more places before you give up."),
     ),
 )
-EXERCISES: Final = (TOUCH, FIND, GENTLY, HONEST)

@@ -14,7 +14,6 @@ from handeye.tasks.interface import Task
 if TYPE_CHECKING:
     from handeye.cell.simulated import SimulatedCell
     from handeye.cell.truth import Truth
-    from handeye.judge.finding import Findings
 
 CLEARANCE: Final = 0.114
 """Difference between the diameters of hole and pin (mm). It has the same value as for the peg of the Factory benchmark
@@ -38,12 +37,6 @@ class InsertionTask(Task):
     """A task with one hole. In each program of such a task, the first stage fetches the pin."""
 
     programs: Mapping[str, str]  # script files among the plans, by the name of their search
-
-    @abstractmethod
-    def judge_on_face(self, truth: Truth) -> Findings:
-        """Judge whether the end of the pin stands on the face of the plate. An exercise of the course uses this
-        function as its referee (docs/course.md).
-        """
 
     @abstractmethod
     def caught(self, clearance: float, chamfer: float) -> float:

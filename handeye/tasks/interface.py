@@ -151,6 +151,13 @@ class AnyTask(ABC):
         """
         return {}
 
+    @property
+    def referees(self) -> Mapping[str, Callable[[Truth], Findings]]:
+        """Referees for other work in the cell of this task, by name; none by default. Exercises of the course use them
+        (docs/course.md).
+        """
+        return {}
+
     def judge_apart(self, truth: Truth) -> Findings:
         """Return the referee's findings after the arm has undone all its work; empty by default. The referee
         does not change the cell."""

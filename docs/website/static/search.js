@@ -40,11 +40,12 @@ function search(question) {
 
 function excerpt(text, patterns) {
   const found = patterns.map((pattern) => pattern.exec(text)).find(Boolean);
-  if (!found) return [text.slice(0, 2 * AROUND), "", ""];
+  if (!found) return [text.length > 2 * AROUND ? text.slice(0, 2 * AROUND).replace(/\s?\S*$/, " …") : text, "", ""];
   const [start, end] = [found.index, found.index + found[0].length];
   const [first, last] = [Math.max(0, start - AROUND), Math.min(text.length, end + AROUND)];
-  const before = (first > 0 ? "… " : "") + text.slice(first, start);
-  const after = text.slice(end, last) + (last < text.length ? " …" : "");
+  // no part of a word at the edges
+  const before = first > 0 ? text.slice(first, start).replace(/^\S*\s?/, "… ") : text.slice(first, start);
+  const after = last < text.length ? text.slice(end, last).replace(/\s?\S*$/, " …") : text.slice(end, last);
   return [before, text.slice(start, end), after];
 }
 

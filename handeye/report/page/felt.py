@@ -82,9 +82,8 @@ def _figure(motion: GuardedMotion) -> Markup:
         element("code", statement),
         element("span", said),
     ]
-    figure = element("figure", _drawn(motion), element("figcaption", joined(told, " ")))
-    # repeats the caption, because a link does not get its accessible name from a figure inside it
-    return to_moment(float(moment), figure, class_="moment", aria_label=f"{when} {place} {statement} {said}")
+    caption = to_moment(float(moment), joined(told, " "), class_="moment")
+    return element("figure", _drawn(motion), element("figcaption", caption))
 
 
 def _said(motion: GuardedMotion) -> str:

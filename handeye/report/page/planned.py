@@ -171,11 +171,10 @@ def _search(search: Search) -> Markup:
     tried = counted(len(search.places), "place")
     came = "no places were left" if search.exhausted else "the search ended at the last one"
     told = f"{tried} tried{f' since {exact_clock(search.times[0])}' if search.times else ''}; {came}"
-    caption = element("figcaption", element("b", search.step.place), " ", element("span", told))
-    figure = element("figure", _spiral(search, told), caption)
-    if not search.times:
-        return figure
-    return to_moment(search.times[-1], figure, class_="moment", aria_label=f"{search.step.place} {told}")
+    caption = joined([element("b", search.step.place), element("span", told)], " ")
+    if search.times:
+        caption = to_moment(search.times[-1], caption, class_="moment")
+    return element("figure", _spiral(search, told), element("figcaption", caption))
 
 
 def _spiral(search: Search, told: str) -> Markup:

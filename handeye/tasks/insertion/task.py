@@ -13,6 +13,8 @@ from handeye.tasks.interface import Words
 from handeye.tasks.stanford_cell.dimensions import PARK, dimensions
 
 if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
     import mujoco
 
     from handeye.cell.rendering import RendererMaker
@@ -85,15 +87,9 @@ class Insertion(InsertionTask):
             "pin_lean": at_most(math.degrees(leans), HOLDER_LEAN, "deg", "tilt of the pin"),
         }
 
-    def judge_on_face(self, truth: Truth) -> Findings:
-        from handeye.tasks.insertion.cell import FACE, PUSH, tip
-
-        off = abs(float(tip(truth.data)[2]) - FACE) * 1e3
-        force = math.hypot(*truth.data.sensor(PUSH).data)
-        return {
-            "on_face": at_most(off, ON_FACE, "mm", "distance of the pin's end from the face of the plate"),
-            "standing": at_least(force, STANDING, "N", "force between pin and plate at the end"),
-        }
+    @property
+    def referees(self) -> Mapping[str, Callable[[Truth], Findings]]:
+        return {"on_face": _on_face}
 
     def caught(self, clearance: float, chamfer: float) -> float:
         return clearance / 2 + chamfer + dimensions()("pin.nose_bevel")
@@ -123,6 +119,18 @@ def _inserted(truth: Truth) -> Findings:
     return {
         "seat": at_most(high, SEATED * 1e3, "mm", "height of the pin's shoulder above the face of the plate"),
         "place": at_most(away, HOLE_PLACE, "mm", "distance of the pin from the axis of the hole"),
+    }
+
+
+def _on_face(truth: Truth) -> Findings:
+    """Judge whether the end of the pin stands on the face of the plate."""
+    from handeye.tasks.insertion.cell import FACE, PUSH, tip
+
+    off = abs(float(tip(truth.data)[2]) - FACE) * 1e3
+    force = math.hypot(*truth.data.sensor(PUSH).data)
+    return {
+        "on_face": at_most(off, ON_FACE, "mm", "distance of the pin's end from the face of the plate"),
+        "standing": at_least(force, STANDING, "N", "force between pin and plate at the end"),
     }
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Final
 
@@ -119,6 +119,12 @@ class WaterPump(Task):
         from handeye.tasks.water_pump.referee.findings import judge_pins
 
         return judge_pins(truth) if done in PINNED else {}
+
+    @property
+    def referees(self) -> Mapping[str, Callable[[Truth], Findings]]:
+        from handeye.tasks.water_pump.referee.over_web import judge_over_web
+
+        return {"over_web": judge_over_web}
 
     def judge_apart(self, truth: Truth) -> Findings:
         from handeye.tasks.water_pump.referee.findings import judge_apart

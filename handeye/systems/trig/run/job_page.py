@@ -72,7 +72,7 @@ def _sections(done: JobReport, program: TrigProgram) -> Iterator[Markup]:
     rows = max(1, len(program.graph.nodes))
     displays = [show(program, _COLUMNS, rows) for show in (full_display, partial_display)]
     texts = (joined((plain([line]) for line in lines), Markup("\n")) for lines in displays)
-    yield section("program", "The program", *(element("pre", text) for text in texts))
+    yield section("program", "The program", *(element("pre", text, tabindex="0") for text in texts))
 
 
 # -- where the blocks lay --------------------------------------------------------------------------------

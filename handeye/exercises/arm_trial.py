@@ -1,36 +1,42 @@
-"""Runs a student's program in one world of the insertion bench, and judges it."""
+"""Runs a student's program for the arm in one world of an exercise, and judges it."""
 
 from __future__ import annotations
 
 import shlex
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Final, Self
+
+import msgspec
 
 from handeye.core.variation import Overrides, WorldSpec
 from handeye.exercises.exercise import Standing, Verdict
 from handeye.judge.finding import at_most
 from handeye.report.facts.again import world_words
 from handeye.results.result import Check
+from handeye.tasks import task
 from handeye.trials.assembly import FinishedRun, run_plan
-from handeye.trials.insertion import TASK, bench
+from handeye.trials.insertion import bench
 from handeye.trials.plans.trial import Watch
 from handeye.trials.sweep import Case, Sweep, TrialRow
 
 if TYPE_CHECKING:
     from handeye.planfile.plan import Plan
 
-SIMULATED_LIMIT_S: Final = 600.0  # the longest search of the bench takes 90 s
+SIMULATED_LIMIT_S: Final = (
+    600.0  # the longest search of the bench, and two pictures of a part, take 90 s each
+)
 CPU_LIMIT_S: Final = 120.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class PinWorlds:
+class ArmWorlds:
     """Worlds of an exercise, and what a right program does in them."""
 
     seeds: range
     told: str  # what these worlds have in common, in words that follow a number
-    set: Mapping[str, float]  # quantities with fixed values, SI
+    set: Mapping[str, float] = field(default_factory=dict)  # quantities with fixed values, SI
+    faults: tuple[str, ...] = ()  # names of faults, each of its usual size
     calls: bool = False  # the work is impossible, so a right program calls the operator
 
     def moved(self, by: int) -> Self:
@@ -38,7 +44,7 @@ class PinWorlds:
         return replace(self, seeds=range(self.seeds.start + by, self.seeds.stop + by))
 
 
-class PinRow(TrialRow, frozen=True, kw_only=True):
+class ArmRow(TrialRow, frozen=True, kw_only=True):
     """The trial of one world."""
 
     found: Verdict | None = None  # None: the trial did not finish
@@ -49,25 +55,26 @@ class PinRow(TrialRow, frozen=True, kw_only=True):
         return self.found.standing
 
 
-PIN_SWEEP: Final = Sweep(
+ARM_SWEEP: Final = Sweep(
     kind="exercise",
-    row=PinRow,
+    row=ArmRow,
     outcomes={"right": "right", "wrong": "wrong", "silent": "silent"},
     success="right",
 )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class PinTrial:
+class ArmTrial:
     """Runs a plan in the worlds of an exercise."""
 
     plan: Plan
     file: str  # of the program
-    worlds: tuple[PinWorlds, ...]
+    task: str
+    worlds: tuple[ArmWorlds, ...]
+    referee: str | None  # one of the task's other referees, which judges the work instead of the usual one
     most_force: float | None  # limit of the force between pin and plate in any physics step, N
-    on_face: bool  # the pin must stand on the face of the plate, and not in the hole
 
-    def __call__(self, case: Case) -> list[PinRow]:
+    def __call__(self, case: Case) -> list[ArmRow]:
         """Run and judge the plan in the world of a case."""
         watch = Watch(simulated_s=SIMULATED_LIMIT_S, cpu_s=CPU_LIMIT_S)
         done = run_plan(
@@ -76,14 +83,14 @@ class PinTrial:
             camera="ray",
             observers=watch.looking_on,
             halt=watch.over,
-            own_referee=bench().judge_on_face if self.on_face else None,
+            own_referee=None if self.referee is None else task(self.task).referees[self.referee],
         )
         (number,) = case.trials
         if watch.ended != "ended":
-            return [PinRow(trial=number, seed=case.seed, ended=watch.ended)]
-        return [PinRow(trial=number, seed=case.seed, found=self._verdict(case.seed, done))]
+            return [ArmRow(trial=number, seed=case.seed, ended=watch.ended)]
+        return [ArmRow(trial=number, seed=case.seed, found=self._verdict(case.seed, done))]
 
-    def verdict(self, row: PinRow) -> Verdict:
+    def verdict(self, row: ArmRow) -> Verdict:
         """Return the verdict on the trial of a row. A trial that did not finish also gets a verdict."""
         return row.found or self._told(row.seed, "wrong", "did not end", row.detail)
 
@@ -120,11 +127,16 @@ class PinTrial:
 
     def _again(self, seed: int) -> str:
         """Return the command that runs the program in this world, and saves the run for the report."""
-        words = ["run", self.file, "--task", TASK, *world_words(self._world(seed), TASK)]
+        words = ["run", self.file, "--task", self.task, *world_words(self._world(seed), self.task)]
         return shlex.join(["handeye", *words, "--out", f"seed{seed}"])
 
     def _world(self, seed: int) -> WorldSpec:
-        return WorldSpec(seed=seed, overrides=Overrides(set=dict(self._of(seed).set)))
+        worlds = self._of(seed)
+        world = WorldSpec(seed=seed, overrides=Overrides(set=dict(worlds.set)))
+        known = task(self.task).faults(world)
+        return msgspec.structs.replace(
+            world, faults=tuple(known.kind(name).usual() for name in worlds.faults)
+        )
 
-    def _of(self, seed: int) -> PinWorlds:
+    def _of(self, seed: int) -> ArmWorlds:
         return next(each for each in self.worlds if seed in each.seeds)

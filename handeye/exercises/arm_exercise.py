@@ -1,39 +1,41 @@
-"""Defines exercises on the insertion bench: a program handles one pin and one plate in worlds with fixed seeds."""
+"""Defines exercises for programs of the arm language, which are judged in worlds with fixed seeds."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Final, Self
+from typing import TYPE_CHECKING, Self
 
 from handeye.al import AL
 from handeye.core.resources import plans
 from handeye.core.source import Source, read_source
+from handeye.exercises.arm_trial import ARM_SWEEP, ArmTrial, ArmWorlds
 from handeye.exercises.exercise import Exercise, Submission, Verdict
-from handeye.exercises.pin_trial import PIN_SWEEP, PinTrial, PinWorlds
-from handeye.program.taught import read_taught
+from handeye.program.taught import Taught, read_taught
 from handeye.runs.scripts import planned
-from handeye.trials.insertion import bench
+from handeye.tasks import task
 from handeye.trials.sweep import Case, carry_out, processes
 
 if TYPE_CHECKING:
     from handeye.core.diagnostics import Diagnostic
     from handeye.planning.planner import PlannedScript
 
-_TAUGHT: Final = "insertion.toml"  # the positions of all these exercises
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class PinExercise(Exercise):
-    """An exercise on the insertion bench."""
+class ArmExercise(Exercise):
+    """An exercise in which a program moves the arm in the cell of a task."""
 
-    worlds: tuple[PinWorlds, ...]
+    task: str
+    taught: str  # file among the plans, with the positions and parts that a program may use
+    worlds: tuple[ArmWorlds, ...]
+    referee: str | None = (
+        None  # one of the task's other referees, which judges the work instead of the usual one
+    )
     most_force: float | None = None  # limit of the force between pin and plate in any physics step, N
-    on_face: bool = False  # the pin must stand on the face of the plate, and not in the hole
 
     @property
     def positions(self) -> Source:
-        return read_source(plans() / _TAUGHT)
+        return read_source(plans() / self.taught)
 
     @property
     def seeds(self) -> tuple[int, ...]:
@@ -48,7 +50,8 @@ class PinExercise(Exercise):
             f"{len(each.seeds)} {each.told} (seeds {each.seeds[0]} to {each.seeds[-1]})"
             for each in self.worlds
         ]
-        return " and ".join(parts)
+        *others, last = parts
+        return f"{', '.join(others)} and {last}" if others else last
 
     @property
     def rules(self) -> tuple[str, ...]:
@@ -71,23 +74,24 @@ class PinExercise(Exercise):
         found = [f"the program defines the position {name}" for name in own]
         changed = plan.program.written("position") & set(known)
         found += [f"the program changes the taught position {name}" for name in sorted(changed)]
-        if given.taught is not None and read_taught(given.taught).positions != known:
+        if given.taught is not None and self._changed(read_taught(given.taught)):
             found.append(f"{given.taught.name} does not have the taught positions of the exercise")
         return found
 
     def verdicts(self, given: Submission) -> list[Verdict]:
         plan = self._planned(given.source).plan
         assert plan is not None, "the program was checked before"
-        trial = PinTrial(
+        trial = ArmTrial(
             plan=plan,
             file=given.source.name,
+            task=self.task,
             worlds=self.worlds,
+            referee=self.referee,
             most_force=self.most_force,
-            on_face=self.on_face,
         )
         cases = [Case(trials=(number,), seed=seed) for number, seed in enumerate(given.seeds or self.seeds)]
         rows = carry_out(
-            PIN_SWEEP,
+            ARM_SWEEP,
             trial,
             cases,
             processes(given.jobs),
@@ -99,4 +103,8 @@ class PinExercise(Exercise):
         return AL.read(file)
 
     def _planned(self, source: Source) -> PlannedScript:
-        return planned(source, read_taught(self.positions), bench(), AL)
+        return planned(source, read_taught(self.positions), task(self.task), AL)
+
+    def _changed(self, own: Taught) -> bool:
+        known = read_taught(self.positions)
+        return (own.positions, own.parts) != (known.positions, known.parts)

@@ -1,0 +1,41 @@
+"""The exercise on vision, in the cell of the water pump."""
+
+from typing import Final
+
+from handeye.exercises.arm_exercise import ArmExercise
+from handeye.exercises.arm_trial import ArmWorlds
+
+SEE: Final = ArmExercise(
+    name="see",
+    session=3,
+    title="find the base with the camera",
+    brief="The base of the pump lies somewhere on the belt, turned by up to 30 degrees. Find it with the camera, and "
+    "stop with the hand over its web, with the finger line along the line between its two large holes. In some worlds "
+    "there is no base, or the base lies the wrong way round. There the program must call the operator.",
+    task="water_pump",
+    taught="exercises/see.toml",
+    start="see.al",
+    referee="over_web",
+    worlds=(
+        ArmWorlds(seeds=range(10), told="worlds in which the base lies as it should"),
+        ArmWorlds(seeds=range(10, 15), told="worlds without a base", faults=("base.missing",), calls=True),
+        ArmWorlds(
+            seeds=range(15, 20),
+            told="worlds in which the base lies the wrong way round",
+            faults=("base.reversed",),
+            calls=True,
+        ),
+    ),
+    hints=(
+        (
+            "reported success",
+            "Which picture shows the direction of the base? GENERAL finds only its outline; SPECIFIC finds its "
+            "holes. On which path does the program trust the plan?",
+        ),
+        (
+            "called the operator",
+            "The base lies as it should here. Before each LOOK, choose the lens, aim the camera, and keep the arm out "
+            "of the picture.",
+        ),
+    ),
+)
