@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 import handeye
-from handeye.core.errors import BadFile, MissingExtra
+from handeye.cell.opengl import context
+from handeye.core.errors import BadFile, InvalidInput, MissingExtra, NoSuchName
 from handeye.core.variation import WorldSpec
 from handeye.datasets import lerobot, recording
 from handeye.datasets.episodes import read_episode, runs_in
@@ -50,7 +51,8 @@ class Library:
             if feature["dtype"] == "string":
                 assert isinstance(frame[name], str)
             else:
-                assert (frame[name].shape, str(frame[name].dtype)) == (feature["shape"], feature["dtype"])
+                dtype = "uint8" if feature["dtype"] == "video" else feature["dtype"]
+                assert (frame[name].shape, str(frame[name].dtype)) == (feature["shape"], dtype)
         self.num_frames, self.last = self.num_frames + 1, frame
 
     def save_episode(self) -> None:
@@ -89,9 +91,30 @@ def test_failures_are_in_the_data_and_marked(folder: Path, tmp_path: Path, libra
     lines = (tmp_path / "data" / lerobot.EPISODES).read_text().splitlines()
     assert [json.loads(line)["outcome"] for line in lines] == ["false done", "stopped"]
     card = (tmp_path / "data" / lerobot.CARD).read_text()
+    assert "privileged" not in card + " ".join(library.made.features)
     assert (
         "| `stopped` | 1 | the program noticed a fault and called the operator, or was interrupted |" in card
     )
+
+
+@pytest.mark.slow
+def test_a_rendered_view_is_in_the_data_only_on_request_and_marked_as_no_sensor(
+    folder: Path, tmp_path: Path, library: type[Library]
+) -> None:
+    try:
+        context()
+    except InvalidInput as reason:
+        pytest.skip(str(reason))
+    lerobot.write_dataset(tmp_path / "data", [folder], view="studio")
+    images = {name for name, feature in library.made.features.items() if feature["dtype"] == "video"}
+    assert images == {"privileged.images.view"}
+    assert library.made.last["privileged.images.view"].std() > 30  # the cell is in it
+    card = (tmp_path / "data" / lerobot.CARD).read_text()
+    assert "`privileged.images.view` | view of the camera `studio`" in card
+    assert "**The robot has no such sensor.**" in card
+    with pytest.raises(NoSuchName, match=r"^there is no camera hand; the cameras are studio$"):
+        lerobot.write_dataset(tmp_path / "other", [folder], view="hand")
+    assert [each.name for each in tmp_path.iterdir()] == ["data"]
 
 
 @pytest.mark.slow
