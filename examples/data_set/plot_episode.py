@@ -1,7 +1,7 @@
 """Plot an episode of a data set that `handeye export lerobot` wrote, into episode.png.
 
-    pip install 'handeye[lerobot]' matplotlib
-    python plot_episode.py FOLDER [EPISODE]
+pip install 'handeye[lerobot]' matplotlib
+python plot_episode.py FOLDER [EPISODE]
 """
 
 import sys
@@ -29,19 +29,25 @@ figure, axes = plt.subplot_mosaic(
 figure.suptitle(f"episode {number}: {frames['annotation.outcome'][-1]}")
 axes["joints"].plot(times, positions[:, :-1], linewidth=0.9, label=names[:-1])
 axes["joints"].set_ylabel("joints, rad (boom: m)")
-axes["joints"].legend(ncols=6, fontsize="small", loc="lower center")
+axes["joints"].legend(
+    ncols=6, fontsize="small", loc="upper center", bbox_to_anchor=(0.5, -0.02), frameon=False
+)
 axes["gap"].plot(times, 1000 * positions[:, -1], "k", linewidth=0.9)
-axes["gap"].set_ylabel("gap of the fingers, mm")
+axes["gap"].set_ylabel("gap, mm")
 axes["force"].plot(times, force, "k", linewidth=0.9)
-axes["force"].set(ylabel="force of the hand, N", xlabel="time, s")
+axes["force"].set(ylabel="force, N", xlabel="time, s", ylim=(0, None))
 for name in ("joints", "gap", "force"):
     axes[name].set_xlim(0, times[-1])
+    axes[name].tick_params(labelbottom=name == "force")
     axes[name].vlines(times[begins], 0, 1, "0.6", "dotted", transform=axes[name].get_xaxis_transform())
-for count, k in enumerate(begins, 1):
-    axes["joints"].annotate(count, (times[k], 1.01), xycoords=("data", "axes fraction"), fontsize="small")
+for count, (k, end) in enumerate(zip(begins, [*begins[1:], -1], strict=True), 1):
+    middle = (times[k] + times[end]) / 2
+    axes["joints"].annotate(
+        count, (middle, 1.01), xycoords=("data", "axes fraction"), ha="center", fontsize="small"
+    )
 axes["stages"].axis("off")
 listed = "\n".join(f"{count}  {stages[k]}" for count, k in enumerate(begins, 1))
-axes["stages"].text(0, 0.95, f"stages\n{listed}", va="top", linespacing=1.5)
+axes["stages"].text(0, 1, listed, va="top", linespacing=1.5)
 axes["picture"].axis("off")
 if TELEVISION in data.features:
     axes["picture"].imshow(data[len(data) - 1][TELEVISION].permute(1, 2, 0))

@@ -42,6 +42,7 @@ PICTURE: Final = "observation.images.television"
 VIEW: Final = "privileged.images.view"  # not `observation`: no port of the robot gives it
 WIDTH: Final = COLUMNS + 1  # video codecs need an even number of columns: the last one is black
 LEVEL: Final = 17  # of 255, for each of the 15 levels above black
+_WRITERS: Final = 2  # threads that write the images of the frames
 _WRENCH: Final = ("force_x", "force_y", "force_z", "moment_x", "moment_y", "moment_z")
 
 
@@ -91,9 +92,11 @@ def _library() -> Any:
     os.environ.setdefault("SVT_LOG", "1")  # the video encoder then reports only errors
     os.environ.setdefault("HF_DATASETS_DISABLE_PROGRESS_BARS", "1")
     try:
+        import av.logging
         from lerobot.datasets.lerobot_dataset import LeRobotDataset
     except ImportError:
         raise MissingExtra("export lerobot", "lerobot", "lerobot") from None
+    av.logging.set_libav_level(av.logging.WARNING)  # otherwise, it reports each file that it completes
     return LeRobotDataset
 
 
@@ -124,6 +127,7 @@ def _fill(
                 root=new,
                 robot_type=robot,
                 use_videos=pictures or view is not None,
+                image_writer_threads=_WRITERS,
             )
         elif trace.motion.names != joints:
             raise Refused(f"the run in {run} uses a different arm from the runs before it")
@@ -145,7 +149,7 @@ def _finish(
     (new / EPISODES).write_bytes(b"".join(msgspec.json.encode(each) + b"\n" for each in episodes))
     (new / CARD).write_bytes(card(episodes, frames, pictures=pictures, view=view))
     images = new / "images"  # LeRobot leaves the folder of the frames that it has encoded
-    if images.is_dir() and not any(images.rglob("*.*")):
+    if images.is_dir() and not any(each.is_file() for each in images.rglob("*")):
         for folder in sorted(images.rglob("*"), reverse=True):
             folder.rmdir()
         images.rmdir()

@@ -43,6 +43,9 @@ class Library:
         cls.made = made = cls()
         made.features, made.settings, made.saved, made.num_frames, made.last = features, settings, 0, 0, {}
         (root / "meta").mkdir(parents=True)
+        (root / "images/observation.images.television/episode-000000").mkdir(
+            parents=True
+        )  # LeRobot leaves it empty
         return made
 
     def add_frame(self, frame: dict[str, Any]) -> None:
@@ -78,6 +81,7 @@ def test_every_frame_has_the_features_that_the_library_was_promised(
     assert (made.saved, made.settings["fps"], made.num_frames) == (2, 10, written.frames)
     assert "observation.images.television" not in made.features  # this cell has no camera
     assert made.last["task"] == "The pin is in its hole."
+    assert not (tmp_path / "data/images").exists()
 
 
 @pytest.mark.slow
