@@ -34,7 +34,11 @@ def lerobot(
     output: Annotated[Path, Parameter(name=["--out", "-o"], help="The folder to write to.")],
     overwrite: Overwrite = False,
     pictures: Annotated[
-        bool, Parameter(help="Include the television pictures, as a video that is compressed with loss.")
+        bool,
+        Parameter(
+            negative="--no-pictures",
+            help="Include the television pictures, as a video that is compressed with loss.",
+        ),
     ] = True,
     view: Annotated[
         str | None,

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from conftest import Command
 
 import handeye
 from handeye.cell.opengl import context
@@ -174,6 +175,31 @@ def test_faults_of_the_standard_set_follow_the_worlds_without_faults() -> None:
         "seed-10-finger_switch.minus_y.stuck_open",
     ]
     assert [each.world.seed for each in found] == [7, 8, 9, 10]
+
+
+@pytest.mark.parametrize(
+    ("options", "meant"),
+    [
+        ((), {"pictures": True, "view": None}),
+        (("--no-pictures", "--view", "studio"), {"pictures": False, "view": "studio"}),
+    ],
+)
+def test_the_command_chooses_the_images(
+    command: Command, monkeypatch: pytest.MonkeyPatch, options: tuple[str, ...], meant: dict[str, object]
+) -> None:
+    given: dict[str, object] = {}
+
+    def write_dataset(path: Path, places: list[Path], **settings: object) -> lerobot.WrittenDataset:
+        given.update(settings)
+        return lerobot.WrittenDataset(path=str(path), episodes=1, frames=2, outcomes={"right": 1})
+
+    monkeypatch.setattr(lerobot, "write_dataset", write_dataset)
+    assert command("export", "lerobot", "runs", "-o", "data", *options) == (
+        0,
+        "data: 1 episode, 2 frames; 1 right\n",
+        "",
+    )
+    assert given.items() >= meant.items()
 
 
 def test_a_place_without_runs_is_refused(tmp_path: Path) -> None:
