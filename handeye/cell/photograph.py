@@ -43,16 +43,17 @@ class Photographer:
 
     def __init__(
         self, scene: mujoco.MjModel, *, width: int, height: int, shadow: int = FINE_SHADOW,
-        samples: int = FINE_SAMPLES,
+        samples: int = FINE_SAMPLES, shadows: bool = True,
     ) -> None:  # fmt: skip
         """Prepare for photographs. Raises InvalidInput if OpenGL cannot be used. If the shadow map is smaller than
-        usual, a photograph takes half the time.
+        usual, a photograph takes half the time; without shadows, it takes a third of the time.
         """
         _, self._gl = context()
         self._drawing = drawing(scene, {"shadowsize": shadow, "offsamples": samples}, width, height)
         self._drawing.shadowScale, self._drawing.shadowClip = SHADOWED, SKY_SHADOWED * scene.stat.extent
         self._viewport = mujoco.MjrRect(0, 0, width, height)
         self._scene = mujoco.MjvScene(scene, maxgeom=MOST_GEOMS)
+        self._scene.flags[mujoco.mjtRndFlag.mjRND_SHADOW] = shadows
         self._option = mujoco.MjvOption()
         self._option.geomgroup[:] = SHOWN
         self._option.sitegroup[:] = 0

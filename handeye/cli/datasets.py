@@ -34,8 +34,19 @@ def lerobot(
     output: Annotated[Path, Parameter(name=["--out", "-o"], help="The folder to write to.")],
     overwrite: Overwrite = False,
     pictures: Annotated[
-        bool, Parameter(help="Include the television pictures, as a video that is compressed with loss.")
+        bool,
+        Parameter(
+            negative="--no-pictures",
+            help="Include the television pictures, as a video that is compressed with loss.",
+        ),
     ] = True,
+    view: Annotated[
+        str | None,
+        Parameter(
+            help="Also render the view of a camera of the scene, such as studio, and include it as a video. The robot "
+            "does not have this view. Needs OpenGL."
+        ),
+    ] = None,
     json: Json = False,
 ) -> int:
     """Write runs as a data set for learned policies, in the format of LeRobot 3, with a data card; needs the extra
@@ -50,7 +61,9 @@ def lerobot(
     def progress(number: int, count: int) -> None:
         note(f"run {number} of {count}")
 
-    written = write_dataset(output, runs, pictures=pictures, overwrite=overwrite, progress=progress)
+    written = write_dataset(
+        output, runs, pictures=pictures, view=view, overwrite=overwrite, progress=progress
+    )
     outcomes = ", ".join(f"{number} {name}" for name, number in written.outcomes.items())
     said = f"{written.path}: {counted(written.episodes, 'episode')}, {counted(written.frames, 'frame')}; {outcomes}"
     return answer(written, (said,), json=json)

@@ -39,26 +39,33 @@ this moment, and `action` is what the arm did in the tenth of a second after it.
 | `annotation.stage`, `annotation.instruction` | stage and instruction of the arm program that make the action; empty between two instructions | |
 | `annotation.outcome` | outcome of the whole episode | |
 | `next.done`, `next.success` | true in the last frame; success only if the outcome is `right` | |
-{pictures}
+{pictures}{view}
 `meta/handeye.jsonl` has a line for each episode: its world, so that the run can be repeated, its outcome, the stage in which it stopped,
 what the referee found wrong, and the versions of the programs.
 
 ## What it does not show
 
 - The runs are simulated. No measurement compares them with a real arm.
-- The demonstrator is a program that uses sensors only; it is not optimal. The state of the parts is not in the data.
+- The demonstrator is a program that uses sensors only; it is not optimal. The state of the parts is not in the data{seen}.
 - While the brakes hold the arm, the sensors are read at most four times a second; the frames then repeat the last reading.
 - The finger switches and the torque of the screwdriver are recorded only while a guard watches them, so they are not in the data.
 - The outcome of an episode is known only at its end. A policy must not be given `annotation.outcome` as an observation.
 - Runs with an intervention list it in `meta/handeye.jsonl`.
 """
+_VIEW: Final = """| `privileged.images.view` | view of the camera `{view}` of the scene, rendered from the recorded poses at the moment of the frame, 240 by 320 points. **The robot has no such sensor.** The view shows the true places of the parts, so a policy that uses it is privileged | |
+"""
 _PICTURES: Final = """| `observation.images.television` | the last picture of the television camera, 256 by 333 points, and a black column. Level 15 of 16 is 255. The video is compressed with loss | |
 """
 
 
-def card(episodes: Sequence[Episode], frames: int, *, pictures: bool) -> bytes:
-    """Return the card as a Markdown file."""
-    body = _BODY.format(rate=RATE, pictures=_PICTURES if pictures else "")
+def card(episodes: Sequence[Episode], frames: int, *, pictures: bool, view: str | None) -> bytes:
+    """Return the card as a Markdown file. `view` is the camera of the rendered view, if there is one."""
+    body = _BODY.format(
+        rate=RATE,
+        pictures=_PICTURES if pictures else "",
+        view=_VIEW.format(view=view) if view else "",
+        seen=", except in the rendered view" if view else "",
+    )
     return CARD_BEGINS + (_HEAD + "\n".join(_contents(episodes, frames)) + "\n" + body).encode()
 
 

@@ -6,6 +6,7 @@ https://github.com/huggingface/lerobot
 import os
 import warnings
 from collections.abc import Callable, Iterator, Sequence
+from itertools import repeat
 from pathlib import Path
 from typing import Any, Final
 
@@ -20,6 +21,8 @@ from handeye.core.record import Record
 from handeye.datasets.card import CARD_BEGINS, card
 from handeye.datasets.episodes import Episode, read_episode, runs_in
 from handeye.datasets.frames import RATE, Frames, frames_of
+from handeye.datasets.rendered_view import HEIGHT, rendered_view
+from handeye.datasets.rendered_view import WIDTH as VIEW_WIDTH
 from handeye.ports.camera import COLUMNS, ROWS, Picture
 from handeye.tasks import any_task
 from handeye.trace.trace import Trace
@@ -36,8 +39,10 @@ DATASET: Final = FolderKind(
     ),
 )  # fmt: skip
 PICTURE: Final = "observation.images.television"
+VIEW: Final = "privileged.images.view"  # not `observation`: no port of the robot gives it
 WIDTH: Final = COLUMNS + 1  # video codecs need an even number of columns: the last one is black
 LEVEL: Final = 17  # of 255, for each of the 15 levels above black
+_WRITERS: Final = 2  # threads that write the images of the frames
 _WRENCH: Final = ("force_x", "force_y", "force_z", "moment_x", "moment_y", "moment_z")
 
 
@@ -55,6 +60,7 @@ def write_dataset(
     places: Sequence[Path],
     *,
     pictures: bool = True,
+    view: str | None = None,
     overwrite: bool = False,
     progress: Callable[[int, int], None] = lambda *_: None,
 ) -> WrittenDataset:
@@ -63,6 +69,7 @@ def write_dataset(
     Args:
         places: folders of runs, or folders that contain such folders.
         pictures: include the television pictures, as a video. The video is compressed with loss.
+        view: camera of the scene; its view is rendered for each frame, and included as a further video.
         progress: called before each run, with its number (from 1) and the number of runs.
 
     Raises:
@@ -73,7 +80,7 @@ def write_dataset(
     written: list[WrittenDataset] = []
 
     def fill(new: Path) -> None:
-        written.append(_fill(new, runs, library, path, pictures, progress))
+        written.append(_fill(new, runs, library, path, pictures, view, progress))
 
     fill_folder(path, fill)
     return written[0]
@@ -85,9 +92,11 @@ def _library() -> Any:
     os.environ.setdefault("SVT_LOG", "1")  # the video encoder then reports only errors
     os.environ.setdefault("HF_DATASETS_DISABLE_PROGRESS_BARS", "1")
     try:
+        import av.logging
         from lerobot.datasets.lerobot_dataset import LeRobotDataset
     except ImportError:
         raise MissingExtra("export lerobot", "lerobot", "lerobot") from None
+    av.logging.set_libav_level(av.logging.WARNING)  # otherwise, it reports each file that it completes
     return LeRobotDataset
 
 
@@ -97,6 +106,7 @@ def _fill(
     library: Any,
     path: Path,
     pictures: bool,
+    view: str | None,
     progress: Callable[[int, int], None],
 ) -> WrittenDataset:
     """Make the data set in the folder `new`, which does not exist yet."""
@@ -113,15 +123,16 @@ def _fill(
             dataset = library.create(
                 repo_id=f"handeye/{path.name}",
                 fps=RATE,
-                features=features(joints, pictures=pictures),
+                features=features(joints, pictures=pictures, view=view is not None),
                 root=new,
                 robot_type=robot,
-                use_videos=pictures,
+                use_videos=pictures or view is not None,
+                image_writer_threads=_WRITERS,
             )
         elif trace.motion.names != joints:
             raise Refused(f"the run in {run} uses a different arm from the runs before it")
         goal = any_task(trace.head.task).words.done
-        for frame in lerobot_frames(frames, trace, episode, pictures=pictures):
+        for frame in lerobot_frames(frames, trace, episode, pictures=pictures, view=view):
             dataset.add_frame({**frame, "task": goal})
         with warnings.catch_warnings():
             warnings.filterwarnings("ignore", "Converting input from bool", RuntimeWarning)
@@ -129,16 +140,16 @@ def _fill(
         episodes.append(episode)
     assert dataset is not None
     dataset.finalize()
-    return _finish(new, episodes, dataset.num_frames, path, pictures=pictures)
+    return _finish(new, episodes, dataset.num_frames, path, pictures=pictures, view=view)
 
 
 def _finish(
-    new: Path, episodes: Sequence[Episode], frames: int, path: Path, *, pictures: bool
+    new: Path, episodes: Sequence[Episode], frames: int, path: Path, *, pictures: bool, view: str | None
 ) -> WrittenDataset:
     (new / EPISODES).write_bytes(b"".join(msgspec.json.encode(each) + b"\n" for each in episodes))
-    (new / CARD).write_bytes(card(episodes, frames, pictures=pictures))
+    (new / CARD).write_bytes(card(episodes, frames, pictures=pictures, view=view))
     images = new / "images"  # LeRobot leaves the folder of the frames that it has encoded
-    if images.is_dir() and not any(images.rglob("*.*")):
+    if images.is_dir() and not any(each.is_file() for each in images.rglob("*")):
         for folder in sorted(images.rglob("*"), reverse=True):
             folder.rmdir()
         images.rmdir()
@@ -148,7 +159,7 @@ def _finish(
     return WrittenDataset(path=str(path), episodes=len(episodes), frames=frames, outcomes=outcomes)
 
 
-def features(joints: Sequence[str], *, pictures: bool) -> dict[str, dict[str, Any]]:
+def features(joints: Sequence[str], *, pictures: bool, view: bool) -> dict[str, dict[str, Any]]:
     """Return the features of a data set, as LeRobot describes them."""
     names = [name.replace(" ", "_") for name in joints]
     positions = [*names, "gap"]
@@ -169,8 +180,9 @@ def features(joints: Sequence[str], *, pictures: bool) -> dict[str, dict[str, An
         "next.success": {"dtype": "bool", "shape": (1,), "names": None},
     }
     if pictures:
-        shape, names = (ROWS, WIDTH, 3), ["height", "width", "channels"]
-        found[PICTURE] = {"dtype": "video", "shape": shape, "names": names}
+        found[PICTURE] = _video(ROWS, WIDTH)
+    if view:
+        found[VIEW] = _video(HEIGHT, VIEW_WIDTH)
     return found
 
 
@@ -182,13 +194,18 @@ def _text() -> dict[str, Any]:
     return {"dtype": "string", "shape": (1,), "names": None}
 
 
+def _video(height: int, width: int) -> dict[str, Any]:
+    return {"dtype": "video", "shape": (height, width, 3), "names": ["height", "width", "channels"]}
+
+
 def lerobot_frames(
-    frames: Frames, trace: Trace, episode: Episode, *, pictures: bool
+    frames: Frames, trace: Trace, episode: Episode, *, pictures: bool, view: str | None
 ) -> Iterator[dict[str, Any]]:
     """Yield the frames of a run by feature."""
     black = np.zeros((ROWS, WIDTH, 3), np.uint8)
     shots = [*map(shown, (shot.picture for shot in trace.pictures)), black]  # the last for NO_PICTURE, -1
-    for k in range(len(frames)):
+    views = repeat(None, len(frames)) if view is None else rendered_view(trace, view, frames.times)
+    for k, rendered in zip(range(len(frames)), views, strict=True):
         last = k == len(frames) - 1
         frame: dict[str, Any] = {
             "observation.state": _single(frames.state[k]),
@@ -206,7 +223,11 @@ def lerobot_frames(
             "next.done": np.array([last]),
             "next.success": np.array([last and episode.outcome == "right"]),
         }
-        yield frame | {PICTURE: shots[frames.picture[k]]} if pictures else frame
+        if pictures:
+            frame[PICTURE] = shots[frames.picture[k]]
+        if rendered is not None:
+            frame[VIEW] = rendered
+        yield frame
 
 
 def _single(values: Array | float) -> NDArray[np.float32]:

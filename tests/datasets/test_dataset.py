@@ -7,9 +7,11 @@ from typing import Any
 
 import numpy as np
 import pytest
+from conftest import Command
 
 import handeye
-from handeye.core.errors import BadFile, MissingExtra
+from handeye.cell.opengl import context
+from handeye.core.errors import BadFile, InvalidInput, MissingExtra, NoSuchName
 from handeye.core.variation import WorldSpec
 from handeye.datasets import lerobot, recording
 from handeye.datasets.episodes import read_episode, runs_in
@@ -42,6 +44,9 @@ class Library:
         cls.made = made = cls()
         made.features, made.settings, made.saved, made.num_frames, made.last = features, settings, 0, 0, {}
         (root / "meta").mkdir(parents=True)
+        (root / "images/observation.images.television/episode-000000").mkdir(
+            parents=True
+        )  # LeRobot leaves it empty
         return made
 
     def add_frame(self, frame: dict[str, Any]) -> None:
@@ -50,7 +55,8 @@ class Library:
             if feature["dtype"] == "string":
                 assert isinstance(frame[name], str)
             else:
-                assert (frame[name].shape, str(frame[name].dtype)) == (feature["shape"], feature["dtype"])
+                dtype = "uint8" if feature["dtype"] == "video" else feature["dtype"]
+                assert (frame[name].shape, str(frame[name].dtype)) == (feature["shape"], dtype)
         self.num_frames, self.last = self.num_frames + 1, frame
 
     def save_episode(self) -> None:
@@ -76,6 +82,7 @@ def test_every_frame_has_the_features_that_the_library_was_promised(
     assert (made.saved, made.settings["fps"], made.num_frames) == (2, 10, written.frames)
     assert "observation.images.television" not in made.features  # this cell has no camera
     assert made.last["task"] == "The pin is in its hole."
+    assert not (tmp_path / "data/images").exists()
 
 
 @pytest.mark.slow
@@ -89,9 +96,30 @@ def test_failures_are_in_the_data_and_marked(folder: Path, tmp_path: Path, libra
     lines = (tmp_path / "data" / lerobot.EPISODES).read_text().splitlines()
     assert [json.loads(line)["outcome"] for line in lines] == ["false done", "stopped"]
     card = (tmp_path / "data" / lerobot.CARD).read_text()
+    assert "privileged" not in card + " ".join(library.made.features)
     assert (
         "| `stopped` | 1 | the program noticed a fault and called the operator, or was interrupted |" in card
     )
+
+
+@pytest.mark.slow
+def test_a_rendered_view_is_in_the_data_only_on_request_and_marked_as_no_sensor(
+    folder: Path, tmp_path: Path, library: type[Library]
+) -> None:
+    try:
+        context()
+    except InvalidInput as reason:
+        pytest.skip(str(reason))
+    lerobot.write_dataset(tmp_path / "data", [folder], view="studio")
+    images = {name for name, feature in library.made.features.items() if feature["dtype"] == "video"}
+    assert images == {"privileged.images.view"}
+    assert library.made.last["privileged.images.view"].std() > 30  # the cell is in it
+    card = (tmp_path / "data" / lerobot.CARD).read_text()
+    assert "`privileged.images.view` | view of the camera `studio`" in card
+    assert "**The robot has no such sensor.**" in card
+    with pytest.raises(NoSuchName, match=r"^there is no camera hand; the cameras are studio$"):
+        lerobot.write_dataset(tmp_path / "other", [folder], view="hand")
+    assert [each.name for each in tmp_path.iterdir()] == ["data"]
 
 
 @pytest.mark.slow
@@ -147,6 +175,31 @@ def test_faults_of_the_standard_set_follow_the_worlds_without_faults() -> None:
         "seed-10-finger_switch.minus_y.stuck_open",
     ]
     assert [each.world.seed for each in found] == [7, 8, 9, 10]
+
+
+@pytest.mark.parametrize(
+    ("options", "meant"),
+    [
+        ((), {"pictures": True, "view": None}),
+        (("--no-pictures", "--view", "studio"), {"pictures": False, "view": "studio"}),
+    ],
+)
+def test_the_command_chooses_the_images(
+    command: Command, monkeypatch: pytest.MonkeyPatch, options: tuple[str, ...], meant: dict[str, object]
+) -> None:
+    given: dict[str, object] = {}
+
+    def write_dataset(path: Path, places: list[Path], **settings: object) -> lerobot.WrittenDataset:
+        given.update(settings)
+        return lerobot.WrittenDataset(path=str(path), episodes=1, frames=2, outcomes={"right": 1})
+
+    monkeypatch.setattr(lerobot, "write_dataset", write_dataset)
+    assert command("export", "lerobot", "runs", "-o", "data", *options) == (
+        0,
+        "data: 1 episode, 2 frames; 1 right\n",
+        "",
+    )
+    assert given.items() >= meant.items()
 
 
 def test_a_place_without_runs_is_refused(tmp_path: Path) -> None:

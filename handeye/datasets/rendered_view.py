@@ -1,0 +1,42 @@
+"""Renders what a camera of the scene shows in each frame of a recorded run, from the recorded poses.
+
+No port of the robot gives this view. It shows the true places of the parts.
+"""
+
+from collections.abc import Iterator
+from typing import Final
+
+import cv2
+import numpy as np
+
+from handeye.cell.photograph import Photograph, Photographer
+from handeye.cell.posed import posed
+from handeye.core.pose import Array
+from handeye.trace.trace import Trace
+
+WIDTH, HEIGHT = 320, 240
+_FINER: Final = 2  # drawn points per point of the view along a side
+
+
+def rendered_view(trace: Trace, camera: str, times: Array) -> Iterator[Photograph]:
+    """Yield the view at each of some moments (s, ascending), shape (240, 320, 3), without shadows. A moment before or
+    after the recording shows its first or its last state.
+
+    A view is drawn only when a body has moved. Otherwise, the view before is repeated, so a clock on the wall shows
+    the time of the last motion.
+
+    Raises:
+        InvalidInput: the scene has no such camera, or OpenGL cannot be used.
+    """
+    photographer = Photographer(
+        trace.scene, width=_FINER * WIDTH, height=_FINER * HEIGHT, samples=0, shadows=False
+    )
+    drawn, view = None, np.empty(0, np.uint8)
+    for time in np.clip(times, *trace.covers).tolist():
+        moment = trace.at(time)
+        poses = dict(moment.poses)
+        if poses != drawn:
+            fine = photographer.take(*posed(trace.scene, poses, moment.time), camera)
+            view = np.asarray(cv2.resize(fine, (WIDTH, HEIGHT), interpolation=cv2.INTER_AREA), np.uint8)
+            drawn = poses
+        yield view
