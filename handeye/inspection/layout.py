@@ -224,7 +224,7 @@ def _beside(edge: FlowEdge, lane: int, side: Literal["back", "skip"], boxes: dic
 def _plain(
     edge: FlowEdge, boxes: dict[int, StepBox], borders: dict[int, tuple[float, float, float]]
 ) -> Route:
-    """Return the route of an edge that leads down, to another column, or out of the drawing."""
+    """Return the route of an edge. The edge may lead straight down, into another column, or out of the drawing."""
     one, other = boxes[edge.start], None if edge.end is None else boxes.get(edge.end)
     middle, bottom, y = one.x + WIDTH / 2, one.y + one.height, one.y + one.height * 0.62
     right = one.x + WIDTH

@@ -88,7 +88,7 @@ def _fields(drawn: mujoco.MjModel) -> Iterator[tuple[str, NDArray[np.int32]]]:
 
 
 def _shared(drawn: mujoco.MjModel) -> Iterator[str]:
-    """Of the model fields to compare, yield the names of the fields that do not belong to a single body. Vertices of
+    """Yield the names of the model fields that are compared and that do not belong to a single body. Vertices of
     meshes are compared separately, by shape.
     """
     for field in dir(drawn):

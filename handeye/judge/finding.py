@@ -30,8 +30,9 @@ class Finding:
         return not self.ok and not self.caution
 
     def limited(self, limit: float) -> "Finding":
-        """Return the same measurement with another limit in the same unit. If the value exceeds the limit, the
-        referee rejects the work."""
+        """Return a finding with the value, unit and subject of this finding, but with the upper limit `limit`. If the
+        value exceeds `limit`, the referee rejects the work.
+        """
         ok = self.value <= limit if self.relation == "at most" else self.value >= limit
         return replace(self, limit=limit, ok=ok, caution=False)
 
@@ -45,8 +46,8 @@ Findings = Mapping[str, Finding]  # by the name of the point that was checked
 
 
 def at_most(value: float, limit: float, unit: str, subject: str, *, caution: bool = False) -> Finding:
-    """Return a finding whose `ok` is True if the value is at most `limit`. With `caution`, a greater value is only a
-    warning, for which the referee does not reject the work.
+    """Return a finding whose `ok` is True if the value is at most `limit`. If `caution` is True, a value above the
+    limit is only a warning: the referee does not reject the work because of it.
 
     >>> handeye.at_most(0.1, 0.2, "mm", "gap under the head").ok
     True
@@ -64,7 +65,7 @@ def at_least(value: float, limit: float, unit: str, subject: str) -> Finding:
 
 
 def worse(one: Findings, other: Findings) -> Findings:
-    """Return, for each name, the worse of the findings of two inspections."""
+    """Compare the findings of two inspections. Return the worse of the two findings for each name."""
     return {
         name: max(found, other[name], key=lambda finding: (not finding.ok, finding.beyond))
         for name, found in one.items()

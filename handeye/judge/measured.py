@@ -42,7 +42,8 @@ class SettledState:
         """Return the greatest distance of the bodies from their places (m). The places are the initial
         positions of the bodies named in `places`.
 
-        Any body may take any place, but each place takes one body; the nearest pairs are assigned first.
+        Any body may be at any place, but only one body at each place. The nearest pairs of a body and a place are
+        assigned first.
         """
         firsts = self._start.xpos[[self.drawn.body(name).id for name in places]]
         now = np.reshape([self.pose(name)[:3, 3] for name in bodies], (-1, 3))

@@ -1,7 +1,7 @@
 """Finds machines by name. A machine is an arm with axes: a value of type `ArmMachine`, with its specification and
 the function that puts it on a bench.
 
-A system can use such a value directly. Machines that other systems can find by name are listed here, or in
+A system can use an `ArmMachine` directly. Machines that other systems can find by name are listed here, or in
 `Entry.machines` of a system.
 """
 

@@ -1,7 +1,8 @@
 """The Purbrick arm, as its manual would specify it and as its scene contains it.
 
 The paper describes six axes (two of them belong to the platter), two fingers, and a force sensor in one finger, but
-gives no dimensions. All numbers are chosen or measured, and marked as such in scenes/purbrick_arm/README.md.
+gives no dimensions. The authors of handeye chose or measured all numbers; scenes/purbrick_arm/README.md says which are
+chosen and which are measured.
 """
 
 import math

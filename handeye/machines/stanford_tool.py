@@ -1,4 +1,4 @@
-"""The Stanford arm as a machine of tool axes: the limits within which it handles parts."""
+"""The limits within which the Stanford arm handles parts if programs command it by tool axes."""
 
 from typing import Final
 

@@ -1,4 +1,5 @@
-"""Checks what the types of a plan cannot express: that all references exist, and that all numbers can be executed.
+"""Checks what the types of a plan cannot express: all references must lead to something that exists, and all numbers
+must be within their limits.
 
 A plan may have been truncated, edited or made by another program. A plan that passes these checks can be executed
 safely.
@@ -78,7 +79,9 @@ def _step(plan: Plan, number: int, step: Step) -> Iterator[str]:
 
 
 def _references(plan: Plan, step: Step) -> Iterator[str]:
-    """Yield faults in the references of a step to steps, stages, positions, parts and pictures."""
+    """Yield the faults in a step's references. A step refers to other steps, and to stages, positions, parts and
+    pictures.
+    """
     program, operation = plan.program, step.operation
     count = len(program.steps)
     for target in step.ways:
@@ -93,7 +96,9 @@ def _references(plan: Plan, step: Step) -> Iterator[str]:
 
 
 def _places(step: Step, lines: Mapping[str, Sequence[str]]) -> Iterator[str]:
-    """Yield faults in the places of a step and its modifiers: lines or columns that the source does not have."""
+    """Yield the faults in the source places that a step and its modifiers name: lines or columns that the source does
+    not have.
+    """
     parts: tuple[Step | SourcePlace, ...] = (step, *step.modifiers)
     for words in parts:
         there = lines.get(words.file, ())
@@ -104,7 +109,7 @@ def _places(step: Step, lines: Mapping[str, Sequence[str]]) -> Iterator[str]:
 
 
 def _use(program: Program, use: Use) -> Iterator[str]:
-    """Yield the fault of a name that a step uses, if the program does not define the name."""
+    """Yield a fault if a step uses a name that the program does not define."""
     match use.kind:
         case "position" if use.name not in program.positions:
             yield f"uses position {use.name}, which is not in the plan"
@@ -117,7 +122,7 @@ def _use(program: Program, use: Use) -> Iterator[str]:
 
 
 def _numbers(operation: AnyOperation | AnyGuard) -> Iterator[str]:
-    """Yield faults in the numbers of an operation or guard: numbers that cannot be executed."""
+    """Yield the faults in the numbers of an operation or guard: numbers outside their limits."""
     for field, (low, high) in operation.bounds.items():
         value = getattr(operation, field)
         size = math.hypot(*value) if isinstance(value, tuple) else value

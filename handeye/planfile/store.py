@@ -81,7 +81,7 @@ def decode(text: str | bytes, name: str) -> Plan:
 
 
 def read_plan(path: Path) -> Plan:
-    """Read a plan from a file. Raises BadFile if `decode` does, or if the file cannot be read."""
+    """Read a plan from a file. Raises BadFile if the file cannot be read, or if `decode` raises BadFile."""
     entry, _ = entry_of_file(path.name)
     if entry is not None:
         raise refusal(entry.name, "plans", str(path))
@@ -117,8 +117,8 @@ def plan_digest(plan: Plan) -> str:
 
 
 def _without_fractions(value: Any) -> Any:
-    """Remove all floating-point numbers from a value made of dictionaries and lists, because such numbers may have
-    been computed.
+    """Remove all floating-point numbers from a value made of dictionaries and lists, because the planner may have
+    computed them.
     """
     if isinstance(value, dict):
         return {key: _without_fractions(each) for key, each in value.items()}
@@ -142,8 +142,8 @@ def written_digest(data: bytes) -> str:
 
 
 def is_plan_of(begun: RunStarted, data: bytes) -> bool:
-    """Return True if a run executed the plan in `data`. If the run recorded the digest of the file, the bytes must
-    be exactly the same.
+    """Return True if a run executed the plan in `data`. If the run recorded the digest of its plan file, `data` must
+    have exactly the bytes of that file.
     """
     digest = written_digest(data)
     if begun.content:

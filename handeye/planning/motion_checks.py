@@ -97,8 +97,8 @@ def table_crossing(X_WT: Pose, boxes: Sequence[Box], *, goal: bool) -> Crossing 
 
 
 def _deepest(X_WT: Pose, deep: Array, names: Sequence[str | None], goal: bool) -> Crossing | None:
-    """Find the deepest of collision depths, shape (N, k). Collisions that exist when the motion begins do not
-    count.
+    """Find the deepest collision from the depths `deep`, shape (N, k). Collisions that exist when the motion begins do
+    not count.
     """
     outside = np.logical_or.accumulate(deep <= OVERLAP / 2, axis=0)
     outside[-1] |= goal
@@ -125,9 +125,8 @@ def weakness(
     arm: ArmModel, q: Array, wanted: Array, *, turning: bool = False, weight: float = 0.0
 ) -> Weakness | None:
     """Find the joint that keeps the hand from exerting a force (N, in W) at one of the configurations, shape (N, n).
-    Returns None if no joint does.
-
-    If `turning` is True, `wanted` is a moment (N m). `weight` (N) is the weight of a load in the hand.
+    Returns None if no joint keeps the hand from it. If `turning` is True, `wanted` is a moment (N m). `weight` (N) is
+    the weight of a load in the hand.
     """
     size = float(np.linalg.norm(wanted))
     if size == 0.0:
@@ -146,7 +145,9 @@ LOAD_STRIDE: Final = 8  # every eighth configuration of a motion is checked for 
 
 @dataclass(frozen=True, slots=True)
 class Demand:
-    """A force or moment that a motion must be able to exert. `guard` is True if a guard waits for it."""
+    """A force or moment that a motion must be able to exert. `guard` is True if a guard waits for this force or
+    moment.
+    """
 
     exerted: HandLoad
     guard: bool

@@ -1,7 +1,7 @@
 """Plans a program for an arm. The planner uses no clock, random numbers or simulator.
 
 The planner goes through the program in text order. Each motion begins where the previous motion was planned to end.
-Goals that are out of reach, loads that are too heavy and collisions are found here, before the program runs.
+The planner finds collisions, goals that are out of reach, and loads that are too heavy, before the program runs.
 """
 
 from collections.abc import Callable, Sequence

@@ -70,19 +70,19 @@ class Axes(ABC):
     @property
     @abstractmethod
     def period(self) -> float:
-        """The time between two goals that the machine's controller accepts (s)."""
+        """The time (s) that must pass before the machine's controller accepts the next goal."""
 
     @abstractmethod
     def read(self) -> AxesReading:
-        """Read the machine. Until time passes, further readings give the same values."""
+        """Read the machine. All readings at one time of the clock give the same values."""
 
     @abstractmethod
     def put(self, goal: Array) -> None:
-        """Set the goals of all axes from now on (rad or m, shape (n,))."""
+        """Set the goals of all axes (rad or m, shape (n,)). The goals hold until the next call."""
 
     def power(self, on: bool) -> None:
-        """Switch the servos on, so that they hold their present positions, or off. Raises Refused if the
-        machine does not allow it.
+        """Switch the servos on or off. When they are switched on, they hold their present positions. Raises Refused if
+        the machine does not allow it.
         """
         raise Refused(f"the power of {self.name} cannot be switched")
 

@@ -50,8 +50,8 @@ class TvCamera(ABC):
 
     @abstractmethod
     def aim(self, pan: float, tilt: float) -> float:
-        """Turn the mount until the potentiometers read these angles (rad). Returns the duration (s). Raises
-        InvalidInput if an angle is not finite.
+        """Turn the mount until the potentiometers read the angles `pan` and `tilt` (rad). Returns the duration (s).
+        Raises InvalidInput if an angle is not finite.
         """
 
     @abstractmethod
@@ -70,8 +70,8 @@ class TvCamera(ABC):
 
     @abstractmethod
     def digitise(self, *, hold_target: bool = False) -> Picture:
-        """Take a picture of the present state. The caller must first let DIGITISE seconds pass, in which tube
-        and digitiser work on the picture.
+        """Take a picture of the present state. The caller must first let DIGITISE seconds pass. This is the time that
+        the tube and the digitiser need for a picture.
 
         Args:
             hold_target: keep the vidicon's target voltage (gain) of the previous picture instead of adjusting

@@ -1,4 +1,4 @@
-"""Defines the clock of a cell. Time passes only through the clock, for all devices at once."""
+"""Defines the clock of a cell. Only the clock lets time pass, and time passes for all devices at once."""
 
 import math
 from abc import ABC, abstractmethod
@@ -18,8 +18,8 @@ _DIGITS: Final = ".12g"  # digits of a period in a message, so that a user can t
 class Clock(ABC):
     """A clock on which time passes only on request.
 
-    While time passes, the last command to each device remains in effect. New readings are taken at the end of this
-    time.
+    Each call of `advance` lets an interval pass. During the interval, the last command to each device remains in
+    effect. At the end of the interval, the devices take new readings.
     """
 
     @property
@@ -36,14 +36,14 @@ class Clock(ABC):
 
     @property
     def next_event(self) -> Fraction | None:
-        """Seconds until the next event that happens without a command and for which tasks may wait, or None if
-        there is none."""
+        """Seconds until the next event, or None if no event will follow. Only events count that need no command and
+        that tasks may wait for.
+        """
         return None
 
     @abstractmethod
     def advance(self, seconds: float) -> None:
-        """Let time pass. Raises InvalidInput unless `seconds` is a whole number of physics steps, and at least
-        one."""
+        """Let time pass. Raises InvalidInput unless `seconds` is one physics step or a whole multiple of it."""
 
 
 def whole_steps(seconds: float, step: float) -> int:

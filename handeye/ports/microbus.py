@@ -72,7 +72,7 @@ class NoAnswer(BusFault):
 
 
 class StrayAnswer(BusFault):
-    """Raised if a byte arrived that no question had asked for, because an answer was longer than expected."""
+    """Raised if an answer was longer than the question had asked for."""
 
     def __init__(self, number: int) -> None:
         super().__init__(f"STRAY {number}: a byte arrived that no question asked for")
@@ -105,8 +105,8 @@ class MicrobusPort(ABC):
 
         The new time may be later than `until` if the machine is simulated in longer steps.
 
-        If the machine is slow to simulate, the new time may also be earlier than `until`, so that a person can
-        interrupt the wait. The caller must then wait again.
+        If the simulation of the machine is slow, `wait` may also return before `until`, so that a person can interrupt
+        it. The caller must then call `wait` again.
         """
 
     @property

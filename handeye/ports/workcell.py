@@ -82,10 +82,10 @@ class ArmReading(Record, frozen=True, kw_only=True):
 class ArmPort(ABC):
     """The motors, brakes and sensors of an arm.
 
-    A watchdog guards the arm. If no new command arrives before the clock has advanced by a servo period, the
-    watchdog switches the drives off and sets the brakes, until the program sets the brakes itself. If the clock
-    advances by more than a servo period at once, the drives are off for the whole of that time. The watchdog does
-    not switch off the hand, which keeps its grip.
+    A watchdog guards the arm. If no new command arrives before the clock has advanced by a servo period, the watchdog
+    switches the drives off and sets the brakes. The drives stay off until the program, too, has set the brakes. If the
+    clock advances by more than a servo period at once, the drives are off for the whole of that time. The watchdog
+    does not switch off the hand, which keeps its grip.
     """
 
     @abstractmethod
@@ -94,8 +94,8 @@ class ArmPort(ABC):
 
     @abstractmethod
     def drive(self, torque: Array | None) -> None:
-        """Apply joint torques (N m, or N for prismatic joints; shape (n,)) for a servo period or, with None,
-        set the brakes. Raises InvalidInput unless there are n finite torques.
+        """Apply joint torques (N m, or N for prismatic joints; shape (n,)) for a servo period. If `torque` is None,
+        set the brakes instead. Raises InvalidInput unless there are n finite torques.
         """
 
 

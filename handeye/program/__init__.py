@@ -1,1 +1,1 @@
-"""The checked program, which depends on no language and no arm, and its model of the cell."""
+"""The checked program and its model of the cell. Neither depends on a language or an arm."""

@@ -16,7 +16,7 @@ _COMMON: Final = {kind.__name__ for kind in get_args(CommonEvent)}
 
 
 def own_kinds(system: str) -> tuple[type[SystemEvent], ...]:
-    """Return the kinds of events that a system adds, or none if the system is unknown here."""
+    """Return the kinds of events that a system adds, or an empty tuple if handeye does not know the system."""
     entry = entries().get(system)
     return _at(entry.events) if entry is not None and entry.events else ()
 
@@ -97,7 +97,7 @@ def read_packed(data: msgspec.Raw, system: str) -> tuple[AnyEvent, ...]:
 
 
 def _refuse_unknown(plain: list[Any], system: str) -> None:
-    """Raise msgspec.ValidationError, with a clear sentence, if an event is of an unknown kind."""
+    """Raise msgspec.ValidationError if an event is of an unknown kind. The message names this kind."""
     known = _COMMON | {kind.__name__ for kind in own_kinds(system)}
     for event in plain:
         kind = event.get("event") if isinstance(event, dict) else None

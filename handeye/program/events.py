@@ -61,8 +61,8 @@ class RunStarted(Event, frozen=True, kw_only=True):
 
     @property
     def made_alike(self) -> "RunStarted":
-        """The event without the processor, the versions and the platform of the renderer, to compare runs made on
-        different computers.
+        """A copy of the event that lacks three facts: the versions, the processor, and the renderer's platform. With
+        such copies, runs made on different computers can be compared.
         """
         camera = msgspec.structs.replace(self.camera, platform="")
         return msgspec.structs.replace(self, versions={}, processor=UNSET, camera=camera)
@@ -249,7 +249,8 @@ class PartMatched(Event, frozen=True, kw_only=True):
 
 
 class CameraStarted(Event, frozen=True, kw_only=True):
-    """The mechanism of the camera was given an action, `lens`, `aim` or `focus`, that takes `seconds` (s).
+    """The program gave the mechanism of the camera a new action: `lens`, `aim` or `focus`. The action takes `seconds`
+    (s).
 
     The action begins when the present movement of the mechanism ends. While the mechanism moves, the arm continues.
     """
@@ -268,7 +269,9 @@ class CameraBusy(Event, frozen=True, kw_only=True):
 
 
 class OperatorCalled(Event, frozen=True, kw_only=True):
-    """The brakes were set and the operator was called, with a message of the program, an error or a cause."""
+    """The brakes were set and the operator was called. The event gives the reason: a message of the program, an error
+    or a cause.
+    """
 
     message: str = ""  # the program's own words
     error: int | None = None
@@ -323,11 +326,11 @@ class LineTyped(Event, frozen=True, kw_only=True):
 
 
 class PanicStopped(Event, frozen=True, kw_only=True):
-    """The operator pressed the panic button. From this servo period on, the drives are off and the brakes set."""
+    """The operator pressed the panic button. From this servo period on, the drives are off and the brakes are set."""
 
 
 class WentBack(Event, frozen=True, kw_only=True):
-    """`events` is the number of events that remain; all later events were undone. This event occurs only in a journal;
+    """All events of the run were undone except the first `events` events. This event occurs only in a journal;
     a trace leaves out the undone events.
     """
 
@@ -364,7 +367,7 @@ class StageUndone(Event, frozen=True, kw_only=True):
 
 
 class UndoEnded(Event, frozen=True, kw_only=True):
-    """The reversal is complete. The program would continue with step `step`."""
+    """The reversal is complete. If the program continues, it continues with step `step`."""
 
     step: int
 

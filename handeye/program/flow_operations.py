@@ -1,4 +1,6 @@
-"""Operations that do not move the arm: searches, errors, counters and memory, load, tool and operator."""
+"""Operations that do not move the arm. They control searches, test for errors, count, save differences and positions,
+declare the load, set the tool and call the operator.
+"""
 
 from typing import ClassVar, Self
 
@@ -34,8 +36,8 @@ class Advance(Operation, frozen=True, kw_only=True):
 
 
 class Test(Operation, frozen=True, kw_only=True):
-    """Test for error `number` of the last action, and clear the error. `raised` is the next step if the error was
-    raised; if `raised` is None, the program then ends.
+    """Test if the last action raised error `number`, and clear the error. If the error was raised, the program
+    continues with step `raised`; if `raised` is None, the program ends.
     """
 
     __test__ = False
@@ -64,8 +66,8 @@ class Assign(Operation, frozen=True, kw_only=True):
 
 
 class Countdown(Operation, frozen=True, kw_only=True):
-    """Decrement a counter (SOJG). `positive` is the next step while the counter is positive; if `positive` is None,
-    the program then ends.
+    """Decrement a counter (SOJG). While the counter is positive, the program continues with step `positive`; if
+    `positive` is None, the program ends.
     """
 
     branches: ClassVar = True
@@ -91,8 +93,8 @@ class Save(Operation, frozen=True, kw_only=True):
     """Save the difference between the actual position of the hand and the goal of the last Move. After a Center, save
     only the component of the difference along the finger line (the line through both finger tips).
 
-    If the goal already contains a Restore of the same name, the restored shift is part of the new difference.
-    If a program saves repeatedly under one name, the difference thus follows a place that moves.
+    If the goal already contains a Restore of the difference `name`, the restored shift is part of the new difference.
+    Therefore, a program that saves the difference `name` again and again can follow a place that moves.
     """
 
     family: ClassVar = "search"
@@ -128,7 +130,7 @@ class Wait(Operation, frozen=True, kw_only=True):
 
 class Undo(Operation, frozen=True, kw_only=True):
     """Reverse the stage and repeat the stage. If the stage has already been reversed `times` times since it began,
-    continue instead.
+    continue with the next step instead.
     """
 
     bounds: ClassVar = {"times": (1, 100)}

@@ -26,7 +26,7 @@ class GuardKind(StrEnum):
 
 
 class HandLoad(NamedTuple):
-    """A force (N) that the hand exerts or, if `turning` is True, a moment (N m), in table axes."""
+    """A force (N) or a moment (N m) that the hand exerts, in table axes. `turning` is True for a moment."""
 
     vector: Vector3
     turning: bool
@@ -43,7 +43,9 @@ class Guard(Record, frozen=True, kw_only=True, tag_field="guard", tag=lambda nam
 
     @classmethod
     def sense(cls) -> Sense | None:
-        """Return the sense on which the guard depends, or None for the current of the screwdriver's motor."""
+        """Return the sense on which the guard depends. Return None if the guard depends on the current of the
+        screwdriver's motor, which is not a sense.
+        """
         return TESTED.get(cls.error)
 
     def exerted(self, along: Vector3 | None) -> "HandLoad | None":

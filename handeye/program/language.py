@@ -1,5 +1,5 @@
-"""Languages as values, chosen by the ending of a file, so that the rest of the program depends on no particular
-language.
+"""Languages as values. The ending of a file determines its language, so that the rest of handeye depends on no
+particular language.
 """
 
 from abc import ABC, abstractmethod
@@ -32,7 +32,9 @@ class Language(Record, frozen=True, kw_only=True):
 
 
 class OwnLanguage(ABC):
-    """A system's own language for its files. The language checks a text, and answers commands and editors."""
+    """A system's own language for its files. The language checks a text, and answers questions of commands and editors
+    about the text.
+    """
 
     system: str
 

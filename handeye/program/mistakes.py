@@ -1,4 +1,4 @@
-"""Kinds of mistakes in the languages of systems, by code, each with an example text and a cure."""
+"""Kinds of mistakes in the languages of systems. Each kind has a code, an example text and a cure."""
 
 from collections.abc import Callable, Mapping, Sequence
 from typing import Final

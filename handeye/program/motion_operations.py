@@ -93,7 +93,7 @@ class Change(ArmMotion, frozen=True, kw_only=True):
 
     @property
     def meets(self) -> bool:
-        """True if the motion should make contact, because it has guards, presses or turns."""
+        """True if the motion should make contact: it has guards, or it presses something, or it turns something."""
         return bool(self.guards) or self.press is not None or self.moment is not None
 
     @property

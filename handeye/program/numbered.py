@@ -52,7 +52,9 @@ class NumberedListing:
         return (self.name,)
 
     def step_of(self, number: int) -> int:
-        """Return the step of a line or, if the line is not in the listing, the step before it."""
+        """Return the step of the line `number`. If the listing does not contain this line, return the last step before
+        it.
+        """
         return max(bisect_right(self.steps, number, key=lambda step: step.line) - 1, 0)
 
 

@@ -1,5 +1,5 @@
 """The base class of all operations, with the values that an operation reads and writes, the errors that it raises,
-and the devices that it needs. Code that uses these properties need not know the operations by name.
+and the devices that it needs. Code that uses these properties does not depend on the kinds of operations.
 """
 
 from collections.abc import Mapping
@@ -47,7 +47,8 @@ class Operation(
 ):
     """Base class of the operations. The class name in lower case is the tag in the plan file.
 
-    The default of a field always means absence, so that plans that leave the field out keep their meaning.
+    The default of a field always means that the operation lacks this property. Therefore, a plan without the field
+    keeps its meaning.
     """
 
     family: ClassVar[Family] = "other"

@@ -1,5 +1,5 @@
-"""All operations, in SI units, independent of any language. To add an operation, define its class in one of these
-modules.
+"""The type of all operations. Operations use SI units and depend on no language. To add an operation, define its class
+in one of the modules imported here.
 """
 
 from handeye.program.flow_operations import FlowOperation

@@ -164,7 +164,7 @@ class Program(Record, frozen=True, kw_only=True, omit_defaults=True):
 
     @property
     def calls(self) -> frozenset[str]:
-        """Names of macros that the stages call. A run can leave out these macros."""
+        """Names of macros that the stages call. These are the macros that can be left out in a run."""
         return frozenset(step.called for step in self.steps if step.macro)
 
     @property

@@ -43,7 +43,9 @@ def stage_called(text: str, stages: Sequence[str]) -> int | None:
 
 
 def _meant(text: str, stages: Sequence[str]) -> str:
-    """Write the end of an error sentence: `; did you mean ...` with the stages of similar names, or else all names."""
+    """Write the end of an error sentence: `; did you mean ...` with the similar names of stages. If no name is
+    similar, write the names of all stages.
+    """
     typed = text.strip().casefold()
     words = {word for name in stages for word in (name, *name.split())}
     near = nearest(typed, words, len(typed) // 3)

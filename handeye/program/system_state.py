@@ -19,7 +19,7 @@ class TaskPlace(NamedTuple):
 
 
 class SystemState(MutableRecord, kw_only=True):
-    """Base class of the states of systems, with the present step."""
+    """Base class of the states of systems. Each state contains the present step."""
 
     at: Natural | None = 0  # the step to do next; None when the program has ended or the operator was called
     stage: Natural | None = None  # the stage under way; None between two stages

@@ -1,4 +1,5 @@
-"""Taught files (TOML): hand positions that were stored by moving the arm, and the parts, fixtures and held objects.
+"""Taught files (TOML). A taught file contains the parts, the fixtures, the held objects, and the hand positions that
+were stored by moving the arm.
 
 [positions.PIN]
 at = [18, 44, 3, 0, 90, 0]         # x, y, z in inches, angles O, A, T in degrees
@@ -182,7 +183,9 @@ _KINDS: Final = {
 
 
 def unfit(error: msgspec.ValidationError) -> str:
-    """From the message of `msgspec`, write the rest of a sentence that names the mismatch and its place."""
+    """Write the part of an error sentence that names the mismatch and its place. Both are taken from the message of
+    `msgspec`.
+    """
     said, _, where = str(error).partition(" - at `$")
     where = where.rstrip("`").lstrip(".")
     about = f"{where}: " if where else ""

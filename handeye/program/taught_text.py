@@ -74,7 +74,7 @@ def _added(text: str, name: str, position: Position) -> str:
 
 
 def _replaced(text: str, name: str, position: Position) -> str:
-    """Return the text with other numbers in the line or table of the position `name`."""
+    """Return the text with the numbers of `position` in the line or table of the position `name`."""
     key = rf"[\"']?{re.escape(name)}[\"']?"
     line = re.compile(rf"^[ \t]*(?:positions\s*\.\s*)?{key}[ \t]*=[ \t]*\{{.*$", re.MULTILINE)
     table = re.compile(rf"^[ \t]*\[\s*positions\s*\.\s*{key}\s*\].*(?:\n(?![ \t]*\[).*)*", re.MULTILINE)

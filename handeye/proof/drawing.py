@@ -15,8 +15,8 @@ WIDTH: Final = 43  # characters of a note
 
 def proof_flow(proof: Proof, plan: Plan) -> Flow:
     """Return the flow between the steps on which a proof rests. The edges of the flow stand for all paths from one of
-    these steps to the next. The notes of a step name the findings that rest on it. A step at which a path begins to
-    avoid a claim is drawn, too.
+    these steps to the next. The notes of a step name the findings that rest on it. If some path to the end does not
+    show a claim, the flow also contains the last step from which the path could still have led to showing the claim.
     """
     notes, graph = _notes(proof), Graph(plan.program.steps)
     whole = flow(plan)
@@ -26,8 +26,8 @@ def proof_flow(proof: Proof, plan: Plan) -> Flow:
 
 
 def _notes(proof: Proof) -> dict[int, list[str]]:
-    """Return, for each step to draw, the findings that rest on the step, and the findings that a path avoids from this
-    step on.
+    """Return notes for each step to draw: the findings that rest on the step, and the findings that a path does not
+    show because of the edge by which it leaves the step.
     """
     found: dict[int, dict[str, None]] = {}
     for finding in proof.findings:

@@ -1,8 +1,8 @@
 """Describes kinds of steps that would notice a wrong state of the work. A kind is given by the place of the step, by
 what the step senses, and by the limits of the sensed value.
 
-A kind of evidence describes a step but never names one. The kind therefore applies to every program of a task,
-whatever the names of labels and macros.
+A kind of evidence describes a step but never names one. The kind therefore applies to every program of a task. It does
+not matter how a program names its labels and macros.
 """
 
 import math
@@ -108,15 +108,15 @@ class Evidence(Record, frozen=True, kw_only=True, tag=True):
         raise NotImplementedError
 
     def failed(self, passed: Passed) -> Answer:
-        """Say whether an executed step is of this kind, but with an outcome that shows the contrary."""
+        """Say whether an executed step is of this kind, but had an outcome that disproves what the kind shows."""
         if passed.outcome in (None, SUCCESS):
             return "no"
         return self.shown(passed._replace(outcome=SUCCESS))
 
 
 def touches(guards: Guards, along: Vector3, force: Limits) -> bool:
-    """Return True if there is at least one guard, and if all guards trip on a force, within the limits `force`, that
-    opposes a motion in the direction `along`.
+    """Return True if there is at least one guard, and if each guard trips when a force opposes a motion in the
+    direction `along`. This force must be within the limits `force`.
     """
     felt = [guard.exerted(along) for guard in guards if isinstance(guard, Force | Against)]
     return bool(felt) and len(felt) == len(guards) and all(
@@ -134,7 +134,7 @@ def _aligned(one: Vector3, other: Vector3) -> bool:
 
 class Contact(Record, frozen=True, kw_only=True):
     """A straight motion that a contact has ended: where it began, its direction, and the force of its guard (N). If
-    `torque` is given, the torque of the screwdriver (N m) has ended the motion.
+    `torque` (N m) is given, not a force but this torque of the screwdriver has ended the motion.
     """
 
     where: Region
@@ -222,8 +222,8 @@ class Contacted(Evidence, frozen=True, kw_only=True):
 class FreeTurn(Evidence, frozen=True, kw_only=True):
     """A turn about an axis. The turn went through at least a given arc, and met less than a given force (N).
 
-    The arc is given by its ends (rad from table x, counter-clockwise) and by the sense of the turn, 1 for
-    counter-clockwise or -1.
+    The arc is given by its ends (rad from table x, counter-clockwise) and by the direction of the turn: 1 for
+    counter-clockwise, -1 for clockwise.
     """
 
     operations: ClassVar = (Turn,)

@@ -18,7 +18,7 @@ class Phase(Record, frozen=True, kw_only=True):
 
 class Claim(Record, frozen=True, kw_only=True):
     """What some steps of a program show, in the order of the claim's phases. If `at_first` is True, the claim holds
-    when the program begins. The program must then show the claim only if a step has undone it.
+    when the program begins. In this case, the program must show the claim only after a step has undone it.
     """
 
     says: str  # clause, such as `the fingers feel the head`
@@ -49,8 +49,8 @@ class Claim(Record, frozen=True, kw_only=True):
 
 
 class Obligation(Record, frozen=True, kw_only=True):
-    """A finding of the referee, and the claims that a program must show so that it would notice if the finding did
-    not hold. If there are no claims, a program need not show the finding, and `rests` gives the reason.
+    """A finding of the referee, and claims. A program that shows these claims would notice if the finding did not
+    hold. If there are no claims, a program need not show the finding, and `rests` gives the reason.
     """
 
     finding: str

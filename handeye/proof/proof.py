@@ -57,7 +57,7 @@ class FindingProof(Record, frozen=True, kw_only=True):
 
 
 class Proof(Record, frozen=True, kw_only=True):
-    """The checks on which the end of a program rests."""
+    """The verdicts on the findings and claims of a task, for one program."""
 
     program: str
     task: str
@@ -118,8 +118,8 @@ class _Prover:
             yield self._shown(shown[0]) if shown else self._searched(some)
 
     def _forms(self, claim: Claim) -> list[Claim]:
-        """Return the claim itself. If the claim rests on pictures, return one form of it for each pair of pictures
-        that the program compares.
+        """Return the claim itself if it does not rest on pictures. If it rests on pictures, return one claim for each
+        pair of pictures that the program compares, with the names of these pictures filled in.
         """
         return (
             [claim.with_pictures(*pair) for pair in self.pairs] if claim.compares and self.pairs else [claim]
@@ -181,7 +181,7 @@ class _Prover:
         )
 
     def _avoidable(self, step: int) -> bool:
-        """Return True if some path to the end does not pass a step."""
+        """Return True if some path to the end does not pass step `step`."""
         if step not in self.avoidable:
             self.avoidable[step] = self._passed_by(step)
         return self.avoidable[step]
@@ -224,7 +224,7 @@ class _Prover:
 
 
 def _undone(form: Effects, way: list[Leg]) -> int | None:
-    """Find the last leg that undoes what the path had shown of a claim before, and return the index of this leg."""
+    """Find the last leg that undoes shown phases of a claim. Return the index of this leg."""
     found, shown = None, form.first
     for index, leg in enumerate(way):
         table = form.tables.get((leg.node, leg.edge))

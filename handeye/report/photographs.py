@@ -68,12 +68,14 @@ class Album:
 
 
 def album(run: RecordedRun) -> Album:
-    """Take the photographs of a run: one of its end or of the moment of failure, and one of each stage."""
+    """Take the photographs of a run: a main photograph, and one of each stage. The main photograph shows the end of
+    the run or, if the run failed, the moment of failure.
+    """
     return Album(leading=_leading(run, outcome(run)), stages=_of_stages(run))
 
 
 def no_album(run: RecordedRun, why: str) -> Album:
-    """Return an album without photographs, which gives the reason once."""
+    """Return an album without photographs. The album gives the reason `why` only once."""
     leading = _none(_PhotographRequest(time=outcome(run).time, view=_room(run), shows="The run"), LARGE, why)
     return Album(leading=leading, stages=())
 
@@ -114,7 +116,9 @@ def _of_stages(run: RecordedRun) -> tuple[Photograph, ...]:
 
 
 def _of_stage(run: RecordedRun, number: int, stage: Stage) -> _PhotographRequest:
-    """Choose the moment of a stage to photograph: the last time that a guard tripped, or the end of the stage."""
+    """Choose the moment of a stage to photograph: the last time that a guard tripped, or, if none tripped, the end of
+    the stage.
+    """
     trips = [
         event.time
         for event in run.trace.events

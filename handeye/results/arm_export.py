@@ -1,4 +1,4 @@
-"""Writes the arm as URDF for other programs, and a record of its joints."""
+"""Writes the arm as a URDF file for other programs, and makes a record of the arm's joints."""
 
 from collections.abc import Iterator
 from pathlib import Path

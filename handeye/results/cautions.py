@@ -12,7 +12,7 @@ from handeye.trace.sentences import renderer_name
 
 def cautions(runner: Runner, *, judged: bool) -> Iterator[str]:
     """Yield sentences on how the conditions of a resumed run differ from the conditions at the start of the run, and
-    on which parts of its state could not be saved.
+    on the parts of the run's state that could not be saved.
     """
     if runner.system.unkept is not None:
         yield f"the camera calibration was not kept for other runs: {runner.system.unkept}"

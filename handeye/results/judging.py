@@ -15,9 +15,9 @@ Limits = Mapping[str, float]  # Limits of findings by their names, each in the u
 
 
 def findings(runner: Runner, pause: Pause, referee: Referee | None = None) -> Findings:
-    """Return the findings of a referee. If `referee` is None, the task's referee judges the run with the limits
-    of the run. There are no findings before the end of the program, unless the program has stopped and the task's
-    referee also measures unfinished work.
+    """Return the findings of a referee. If `referee` is None, the task's referee judges the run with the limits of the
+    run. Before the end of the program, there are findings only if the program has stopped and the task's referee also
+    measures unfinished work.
 
     If the arm has undone all its work, the findings say whether all parts are back in their places, and whether
     the taught positions are unchanged.
@@ -86,7 +86,9 @@ def check_limits(runner: Runner) -> None:
 
 
 def limited(findings: Findings, limits: Limits) -> Findings:
-    """Return the findings, judged by other limits. Raises InvalidInput if a limit belongs to no finding."""
+    """Return the findings with `limits` instead of the limits of the task. Raises InvalidInput if a limit belongs to
+    no finding.
+    """
     found = dict(findings)
     for name, limit in limits.items():
         if name not in found:

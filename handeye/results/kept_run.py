@@ -70,7 +70,7 @@ def _readable_events(path: Path) -> list[AnyEvent]:
 
 
 def _belongs(result: Result, events: Sequence[AnyEvent]) -> bool:
-    """Return True if a result can belong to the run with these events, because program, task and world agree."""
+    """Return True if `result` and `events` can belong to the same run: their program, task and world are equal."""
     begun = next((event for event in events if isinstance(event, RunStarted)), None)
     return begun is None or (
         (result.program, result.task, result.world, result.seed)

@@ -96,8 +96,9 @@ def told_faults(result: Result) -> Iterator[str]:
 
 
 def printable(result: Result) -> Result:
-    """Return the result with the control characters in all its texts made visible, so that none of them reaches
-    the terminal."""
+    """Return a copy of the result in which visible signs replace the control characters of all texts. No control
+    character then reaches the terminal.
+    """
 
     def made(value: object) -> object:
         match value:
@@ -142,8 +143,9 @@ def timing(result: Result) -> Table:
 
 
 def _rows(result: Result, then: Mapping[str, float]) -> Iterator[TimingRow]:
-    """Yield the rows of the table of times. The first and the last row may be computing times; all other rows
-    are simulated times."""
+    """Yield the rows of the table of times. The first row and the last row may show computing times; all other rows
+    show simulated times.
+    """
     t = result.timing
     if t.planning_cpu_s:  # 0 if the plan existed already
         yield "planning phase (CPU)", t.planning_cpu_s, then.get("planning")
@@ -169,7 +171,9 @@ def cell_times(result: Result, then: Mapping[str, float]) -> Iterator[TimingRow]
 
 
 def period(result: Result) -> HistoricalTiming | None:
-    """Return the times of 1973 if these times belong to this program and the run undid no work. If not, return None."""
+    """Return the times of 1973 for this program. Return None if the program was not timed in 1973, or if the run undid
+    work.
+    """
     if result.apart is not UNSET:
         return None
     task = known(result.task)

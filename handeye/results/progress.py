@@ -60,7 +60,7 @@ class Progress(Observer):
 
     @contextmanager
     def aside(self) -> Iterator[None]:
-        """Within this context, hide the progress bar while the operator is asked."""
+        """Hide the progress bar while this context is open, so that the operator can be asked."""
         shown = self._bar.live.is_started
         self._bar.stop()
         try:

@@ -201,7 +201,9 @@ class Result(Record, frozen=True, kw_only=True):
 
     @property
     def cautions(self) -> tuple[str, ...]:
-        """Findings that are only warnings, for which the referee does not reject the work; one sentence each."""
+        """One sentence for each finding that is only a warning. The referee does not reject the work because of
+        warnings.
+        """
         return tuple(check.told for check in self.checks if not check.ok and check.caution)
 
     @property
@@ -244,8 +246,9 @@ def restore_figures(findings: Any) -> None:
 
 
 def told_limits(result: Result) -> tuple[str, ...]:
-    """Return the limits that the calling program set, each with its quantity and unit if the quantity was
-    measured."""
+    """Return the limits that the calling program set. If the referee measured the quantity of a limit, the limit has
+    the quantity and its unit with it.
+    """
     checks = {**result.referee, **(result.built or {})}
     return tuple(
         f"{name}: {limit:g}"

@@ -1,5 +1,6 @@
-"""Advances a run step by step until it ends or a stop condition pauses it. States that must be kept are passed
-to the run's observers."""
+"""Advances a run step by step until it ends or a stop condition pauses it. Passes the states that must be kept to the
+run's observers.
+"""
 
 from collections.abc import Callable, Sequence
 from typing import Literal
@@ -92,7 +93,7 @@ class AfterStage(StopCondition, frozen=True, kw_only=True):
 
 
 class ReversalEnd(StopCondition, frozen=True, kw_only=True, tag="Undone"):
-    """Pause when the arm has undone as many steps as it was ordered to undo."""
+    """Pause when the arm has undone all steps that the order to undo named."""
 
     def met_before(self, runner: Runner) -> bool:
         return isinstance(runner.events[-1], UndoEnded)
@@ -154,8 +155,8 @@ def advance(
     steps: int | None = None,
     asked: Callable[[], bool] = lambda: False,
 ) -> Pause:
-    """Execute a number of steps, `steps` (at least one). If `steps` is not given, continue until the run ends. `asked`
-    is called after each step, and the run pauses if it returns True. Returns the reason why the run paused.
+    """Execute `steps` steps (at least one). If `steps` is not given, continue until the run ends. `asked`
+    is called after each step. If `asked` returns True, the run pauses. Returns the reason why the run paused.
     """
     done = 0
     while not runner.ended:
@@ -177,8 +178,9 @@ def advance(
 
 
 def paused_before(runner: Runner, stops: Sequence[AnyStop], done: int = 0) -> Pause | None:
-    """Return the pause before the next step, or None if no stop condition is met. If the run pauses, its state
-    is kept."""
+    """Return the pause if a stop condition is met before the next step, or None if no stop condition is met. If the
+    run pauses, its state is kept.
+    """
     met = next((stop for stop in stops if stop.met_before(runner)), None)
     if met is None:
         return None

@@ -186,7 +186,7 @@ def _in_memory(kept: _Snapshot, kind: System, name: str) -> Snapshot:
 
 
 def decode_head(data: bytes, name: str) -> Head:
-    """Decode the summary of a checkpoint. Like `decode`, this checks the whole file for damage."""
+    """Decode the summary of a checkpoint. Like `decode`, this function checks the whole file for damage."""
     return _opened(data, name)[0]
 
 

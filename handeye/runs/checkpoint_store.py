@@ -1,5 +1,5 @@
-"""Manages the checkpoints of one run in a folder: writes and finds them, and, when the run goes back to an earlier
-point, removes the checkpoints made after that point.
+"""Manages the checkpoints of one run in a folder: writes and finds them. If the run goes back to an earlier point,
+removes the checkpoints made after that point.
 """
 
 import re
@@ -161,7 +161,7 @@ def file_name(checkpoint: Checkpoint) -> str:
 
 
 def leave(folder: Path, checkpoint: Checkpoint) -> Path:
-    """Write a checkpoint under a name that replaces no other state. Returns the file's path."""
+    """Write a checkpoint under a new name, so that it replaces no other checkpoint. Returns the file's path."""
     state, setup, name = encode(checkpoint), checkpoint.setup, file_name(checkpoint)
     if _holds(folder / name, state):
         return folder / name

@@ -47,12 +47,12 @@ MARK: Final = "unnamed"
 
 
 def _outcomes() -> list[str]:
-    """Return the names of the files that record the outcome of a run, for all systems."""
+    """Return the names of the files that record the outcome of a run. The list includes the files of all systems."""
     return [RESULT, REPORT, VIDEO, *(name for entry in entries().values() for name in entry.files)]
 
 
 class HoldsRun(CannotWrite):
-    """Raised if a folder already holds a run, which would be lost."""
+    """Raised if a folder already holds a run, and a new run in the folder would replace it."""
 
     def __init__(self, path: Path) -> None:
         super().__init__(
@@ -85,8 +85,9 @@ class RunFolder(Observer):
     def watch(
         self, runner: Runner, start: Checkpoint, *, again: bool, meter: Meter | None = None
     ) -> "RunFolder":
-        """Observe a run that begins at `start` or, with `again`, resumes there. `meter` measures the run's host
-        time."""
+        """Observe a run that begins at `start`. If `again` is True, the run does not begin at `start`, but resumes
+        there. `meter` measures the run's host time.
+        """
         if (self.path / RESULT).is_dir():  # found now, not only when the run ends
             raise CannotWrite(f"{self.path / RESULT} cannot be written: it is a folder")
         self._runner, self._meter = runner, meter or Meter(before=self.spent)
@@ -166,8 +167,8 @@ class RunFolder(Observer):
             self._journal.undone(events, self._runner.time, "back")
 
     def _goes_on(self) -> None:
-        """Remove the files with the outcome when the run continues, because these files are then outdated. `close`
-        removes the outdated files that other commands write while the run goes on.
+        """Remove the files with the outcome when the run continues, because these files are then outdated. While the
+        run continues, other commands may write such files again; `close` removes them.
         """
         if not self._continued:
             self._remove_outcome()
@@ -191,7 +192,7 @@ class RunFolder(Observer):
         write_host_seconds(self.path / HOST, self._meter.seconds(self._runner))
 
     def check_traced(self) -> None:
-        """Raise CannotWrite if the trace could not be written, so that the run must not continue."""
+        """Raise CannotWrite if the trace could not be written. The run must not continue without its trace."""
         if self._recorder is not None and self._recorder.broken:
             raise CannotWrite(
                 f"the trace in {self.path} was cut short; free some disk space, then `handeye resume {self.path}` "

@@ -72,7 +72,9 @@ class HandOver(Record, frozen=True, kw_only=True):
                     )
 
     def value(self, name: str, kind: Kind) -> Array:
-        """Return the numbers of a value, SI. Raises Refused if the value is missing or of another kind."""
+        """Return the numbers of the value `name` in SI units. Raises Refused if the value is missing, or if it is not
+        of the kind `kind`.
+        """
         found = self.named.get(kind, {}).get(name)
         if found is not None:
             return np.array(found)
@@ -117,8 +119,8 @@ def place_now(sensed: Sensed, arm: ArmModel) -> tuple[float, ...]:
 
 
 class StationMemory(MutableRecord, kw_only=True):
-    """What the station has measured of itself before the first leg, and the state of its camera. This memory belongs
-    to the devices and not to a program, so every leg may use it. Joint arrays have shape (n,).
+    """The measurements that the station made of its own devices before the first leg, and the state of its camera.
+    This memory belongs to the devices and not to a program, so every leg may use it. Joint arrays have shape (n,).
     """
 
     friction: Array  # Coulomb friction (N m, N); 0 if unknown

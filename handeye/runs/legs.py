@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 
 class Use(NamedTuple):
-    """A named value that a leg reads or writes, and the line that does so first."""
+    """A named value that a leg reads or writes, and the first line that reads or writes it."""
 
     name: str
     kind: Kind
@@ -37,7 +37,7 @@ class Lack(NamedTuple):
 
 
 class RunningLeg(RunningSystem):
-    """A program during its legs. Between these legs, it keeps its memory, and other programs may move the arm."""
+    """A program during its legs. Between its legs, it keeps its memory, and other programs may move the arm."""
 
     @abstractmethod
     def stand_at(self, stage: str) -> None:
@@ -45,8 +45,8 @@ class RunningLeg(RunningSystem):
 
     @abstractmethod
     def take_over(self, stage: str, record: HandOver, station: StationMemory) -> None:
-        """Take the arm over from another program, for a stage. Raises Refused, and changes nothing, if the record lacks
-        a value that the stage needs, or has a value of another kind under the name of such a value.
+        """Take the arm over from another program, for a stage. Raises Refused, and changes nothing, if the record
+        lacks a value that the stage needs, or if such a value in the record is of the wrong kind.
         """
 
     @abstractmethod
@@ -56,15 +56,15 @@ class RunningLeg(RunningSystem):
         """
 
     def take_back(self, station: StationMemory) -> None:
-        """Take the arm back from the program of the next leg, which has undone its steps. The arm is roughly where
-        this program left it. Only a program that can undo its own steps needs this method.
+        """Take the arm back from the program of the next leg, after that program has undone its steps. The arm is
+        roughly where this program left it. Only a program that can undo its own steps needs this method.
         """
         raise NotImplementedError
 
     @property
     @abstractmethod
     def station(self) -> StationMemory:
-        """What the station knows about itself now."""
+        """The present memory of the station: its measurements of its own devices, and the state of its camera."""
 
 
 class LegSystem(ABC):
@@ -85,7 +85,7 @@ class LegSystem(ABC):
         """Read a program and make its plan. Raises InvalidInput if the program has errors."""
 
     def encode(self, plan: Record) -> bytes:
-        """Encode a plan as bytes. By default, plans of legs are plans of the system."""
+        """Encode a plan as bytes. By default, the plan of a leg has the format of the system's other plans."""
         return system_named(self.system).encode(plan)
 
     def decode(self, data: bytes, name: str) -> Record:

@@ -95,4 +95,4 @@ class NumberedRun(RunningSystem):
 
     @abstractmethod
     def _set(self, what: str, name: str, number: float) -> None:
-        """Set a value. The caller has checked that the value is one of the settable values."""
+        """Set the value `name` to `number`. The caller has checked that this value can be set."""

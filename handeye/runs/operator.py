@@ -122,7 +122,9 @@ def _unwound(runner: Runner) -> set[int]:
 
 
 def _of_this_part(runner: Runner) -> Sequence[AnyEvent]:
-    """Return the events since the run began or, if the arm was ordered to undo all its work, since that order."""
+    """Return the events since the run began. If the arm was ordered to undo all its work, return only the events since
+    this order.
+    """
     ordered = (n for n, event in enumerate(runner.events) if isinstance(event, UndoOrdered) and event.halts)
     return runner.events[max(ordered, default=-1) + 1 :]
 
@@ -154,10 +156,11 @@ def attend(
     stops: Sequence[AnyStop] = (),
     kept: Callable[[int], Checkpoint | None] = lambda _: None,
 ) -> Pause:
-    """Continue until the run pauses and the operator cannot continue it.
+    """Continue the run. At each call, follow the operator's answer. Return when the run has paused and the operator
+    cannot continue it.
 
-    When the run goes back, `kept` finds the newest checkpoint on disk that has at most a given number of steps
-    done.
+    The function `kept` is needed when the run goes back. Called with a number of steps, it returns the newest
+    checkpoint on disk at which at most this number of steps was done.
     """
     refused: str | None = None
     while True:

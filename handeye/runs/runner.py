@@ -1,8 +1,8 @@
 """A run that can be stepped, stopped and restored.
 
-After every step, the cell's state is captured and immediately restored. This resets everything that a state does not
-contain (see `SimulatedCell.restore`). A run that is interrupted and resumed therefore takes the same course, byte for
-byte, as a run that is not interrupted.
+After every step, the cell's state is captured and immediately restored. Restoring the state resets everything that a
+state does not contain (see `SimulatedCell.restore`). A run that is interrupted and resumed therefore takes the same
+course, byte for byte, as a run that is not interrupted.
 """
 
 from __future__ import annotations
@@ -81,8 +81,8 @@ class Runner:
         parts: Parts = OWN,
         calibrate: bool = False,
     ) -> None:
-        """Build the cell. Then calibrate its camera, or restore the state of a stored calibration or of the
-        checkpoint.
+        """Build the cell. If the run begins from a checkpoint, restore the state of the checkpoint. If not, calibrate
+        the cell's camera, or restore the state that an earlier run stored after its calibration.
 
         Args:
             halt: the panic button, polled in every servo period; Halted is raised if it is pressed during
@@ -221,7 +221,7 @@ class Runner:
 
     @property
     def undone(self) -> bool:
-        """True if the run has ended because the arm has undone as many steps as it was ordered to undo."""
+        """True if the run has ended because the arm has undone all steps that the order to undo named."""
         last = next((e for e in reversed(self.events) if isinstance(e, StepStarted | UndoEnded)), None)
         return self.at is None and isinstance(last, UndoEnded)
 
@@ -272,8 +272,8 @@ class Runner:
         self._settle()
 
     def order_reversal(self, left: int, *, halts: bool = False, asked_by: AskedBy = "person") -> None:
-        """Order the arm to undo one executed step in each following step, until only `left` of the executed steps
-        remain. If `halts` is True, the run then ends.
+        """Order the arm to undo executed steps until only `left` of them remain. Each following step of the run undoes
+        one executed step. If `halts` is True, the run then ends.
         """
         self.require("undo")
         self.system.reverse(ReversalOrder(left=left, halts=halts, asked_by=asked_by))
@@ -316,8 +316,8 @@ class Runner:
         """Return to the state with `position` steps done: restore the nearest earlier state, and execute the
         remaining steps from there.
 
-        For states that are no longer in memory, `kept` finds the newest checkpoint on disk that has at most a
-        given number of steps done.
+        The function `kept` is needed for states that are no longer in memory. Called with a number of steps, it
+        returns the newest checkpoint on disk at which at most this number of steps was done.
         """
         if not 0 <= position <= self.position:
             raise BadArgument(f"cannot go back to the state after {counted(position, 'step')}")
@@ -380,7 +380,7 @@ class Runner:
 
     def type_line(self, text: str, task: str = "") -> None:
         """Type a line at the system's console, for one of the system's tasks. If a step is being executed, the line is
-        executed in the middle of the step; the system may refuse that.
+        executed in the middle of the step, unless the system refuses a line there.
         """
         self.require("console")
         if self._within_step:
@@ -392,8 +392,8 @@ class Runner:
     # -- inside ---------------------------------------------------------------------------------------
 
     def _settle(self) -> None:
-        """Capture the cell's state, restore it, and add it to the history. A state that equals the last one, for
-        example after a statement that takes no time, is not restored again.
+        """Capture the cell's state, restore it, and add it to the history. If the state equals the last state of the
+        history, for example after a statement that takes no time, the state is not restored.
         """
         cell = self.system.cell
         captured = None if cell is None else cell.capture()

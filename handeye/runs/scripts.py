@@ -64,8 +64,8 @@ def _scripts(work: Task) -> list[Path]:
 
 
 def taught(file: Path, work: Task | None = None) -> Taught:
-    """Return the positions and parts in the taught file beside a script, completed by the fixtures of the
-    script's task. Raises InvalidInput if the taught file cannot be used.
+    """Return the positions and parts in the taught file beside a script, together with the fixtures of the script's
+    task. Raises InvalidInput if the taught file cannot be used.
     """
     return in_cell(taught_beside(file), work or task_of(file))
 

@@ -54,7 +54,7 @@ class Conditions(Record, frozen=True, kw_only=True):
 
 
 def starts_folder() -> Path | None:
-    """Return the folder of the user's starts; None if nothing is kept."""
+    """Return the folder of the user's starts; None if handeye stores no cache."""
     kept = cache_folder()
     return None if kept is None else kept / "starts"
 
@@ -125,8 +125,8 @@ class StartStates:
 
 
 def planted(start: Checkpoint, fault: Fault) -> Checkpoint:
-    """Return a start with one more fault in its world. The fault begins with a stage; before that stage, the worlds
-    with and without the fault are equal.
+    """Return a start with one more fault in its world. The fault acts only from the beginning of a stage on; before
+    that stage, the worlds with and without the fault are equal.
     """
     setup, snapshot = start.setup, start.snapshot
     assert snapshot is not None
@@ -140,7 +140,7 @@ def planted(start: Checkpoint, fault: Fault) -> Checkpoint:
 
 
 def own_setup(task: str, world: WorldSpec, camera: str) -> Setup:
-    """Return the setup of a run of a task's own program, by the system to which the task belongs."""
+    """Return the setup of a run of a task's own program. The system to which the task belongs executes the program."""
     system = next((entry.name for entry in entries().values() if task in entry.tasks), None)
     if system is None:
         return Setup(plan=own_plan(task), world=world, camera=camera)

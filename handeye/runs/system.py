@@ -269,7 +269,9 @@ class RunningSystem(Protocol):
 
     @property
     def figures(self) -> Mapping[str, float]:
-        """Figures that the result of the run shows in addition to the figures of every system; none by default."""
+        """The system's own figures for the result of the run. The result shows these in addition to the figures that
+        every system has. By default, there are no such figures.
+        """
         return {}
 
     def remembered(self) -> Findings:
@@ -278,8 +280,8 @@ class RunningSystem(Protocol):
 
     @abstractmethod
     def restore(self, state: SystemState) -> None:
-        """Continue from a copy of a state. The cell must already be in the state that it had at the same moment. Raises
-        InvalidInput if the state does not fit the plan.
+        """Continue from a copy of a state. The caller must first restore the cell to its state at the moment of
+        `state`. Raises InvalidInput if the state does not fit the plan.
         """
 
     @property
@@ -295,21 +297,21 @@ class RunningSystem(Protocol):
         raise Refused("this system has no console to type at")
 
     def interject(self, text: str, task: str) -> None:
-        """Execute a typed line in the middle of a step, and emit `LineTyped` before it takes effect. Raises
-        InvalidInput, and changes nothing, if that is impossible.
+        """Execute a typed line in the middle of a step, and emit `LineTyped` before the line takes effect. If the line
+        cannot be executed there, raises InvalidInput and changes nothing.
         """
         raise Refused("a line can be typed only while the run is paused; `pause` pauses it")
 
     def foresee(self, typed: Sequence[LineTyped]) -> None:
-        """Execute these lines again in the middle of the next step, each at its time. Raises Refused if that is
-        impossible.
+        """Execute the lines `typed` again in the middle of the next step, each at its time. Raises Refused if the
+        system cannot execute lines in the middle of a step.
         """
         if typed:
             raise Refused("this system cannot execute a typed line in the middle of a step")
 
     @property
     def live(self) -> LiveNews | None:
-        """What only this system shows in the page of a live run; None if there is nothing to show."""
+        """The part of a live run's page that only this system shows; None if the system adds nothing to the page."""
         return None
 
     def settables(self) -> Mapping[str, Settable]:
@@ -350,8 +352,8 @@ class StepperWords:
 
 
 class LiveNews(ABC):
-    """What only this system shows in the page of a live run. The server's thread asks this object for news while
-    the run goes on.
+    """The part of a live run's page that only one system shows. While the run continues, the server's thread asks this
+    object for news.
     """
 
     part: PagePart
@@ -428,8 +430,9 @@ class System(ABC):
         return ()
 
     def order(self, plan: Any, state: Any, undoing: ReversalOrder) -> None:
-        """Change a state so that its executed steps are undone. Raises InvalidInput if no executed step is
-        left."""
+        """Change a state so that the next steps from this state undo its executed steps. Raises InvalidInput if no
+        executed step is left.
+        """
         raise refusal(self.name, "undo")
 
     def calibration(self, state: Any) -> Calibration | None:
@@ -470,5 +473,5 @@ class System(ABC):
         return None
 
     def parts(self, folder: Path) -> Sequence[PagePart]:
-        """Return what only this system shows in the report of the run in a folder."""
+        """Return the sections that only this system adds to the report of the run in a folder."""
         return ()

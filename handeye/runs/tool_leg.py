@@ -1,4 +1,4 @@
-"""The part common to all legs that move the arm as a machine of tool axes (`handeye/execution/tool_axes.py`)."""
+"""What some legs have in common: the legs that command the arm by tool axes (`handeye/execution/tool_axes.py`)."""
 
 from collections.abc import Sequence
 from typing import Any, Final
@@ -88,8 +88,8 @@ class ToolArm:
 
     @property
     def station(self) -> StationMemory:
-        """What the station knows of itself. This knowledge stays as the program received it, because only the program
-        of 1973 improves the weights and uses the camera.
+        """The memory of the station: the measurements of its own devices, and the state of its camera. The program
+        returns this memory unchanged, because only the program of 1973 improves the weights and uses the camera.
         """
         return self.memory.station
 
@@ -122,7 +122,7 @@ class ToolArm:
 
 
 class ToolLeg(RunningLeg):
-    """A program that moves the tool of the arm in its leg. The whole program is one leg."""
+    """A program that commands the arm by tool axes. The whole program is one leg."""
 
     tool: ToolArm
 

@@ -29,8 +29,8 @@ def stage_began(executed: Sequence[ExecutedStep], listing: Listing, stage: int) 
 
 
 def to_be_undone(checkpoint: Checkpoint, name: str, stage: int | None = None) -> Checkpoint:
-    """Return the checkpoint with an order to undo its steps back to the beginning of a stage, or of the run,
-    and to end there. Messages call the run `name`.
+    """Add an order to a checkpoint: the arm undoes its steps and then ends the run. The arm undoes the steps since the
+    beginning of stage `stage`, or all steps if `stage` is None. Messages call the run `name`.
     """
     require(checkpoint.setup.system, "undo", name)
     snapshot, kind, plan = checkpoint.snapshot, system_of(checkpoint.setup), checkpoint.setup.plan
@@ -52,7 +52,7 @@ def to_be_undone(checkpoint: Checkpoint, name: str, stage: int | None = None) ->
 
 
 def _check_whole(checkpoint: Checkpoint, done: Sequence[ExecutedStep], name: str) -> None:
-    """Raise Refused unless the run can still undo its first step, or has already undone it."""
+    """Raise Refused if the run has not undone its first step yet, and can no longer undo this step."""
     first = next((event for event in checkpoint.events if isinstance(event, StepStarted)), None)
     if first is None:
         raise Refused(f"{name} has no steps: there is nothing to undo")

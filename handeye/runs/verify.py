@@ -35,8 +35,9 @@ def setup_of(trace: Trace) -> Setup:
 
 
 def settled(events: Sequence[AnyEvent]) -> int:
-    """Return how many of a run's events, from the first one on, do not depend on the moment at which the panic button
-    was pressed."""
+    """Count the events at the beginning of a run that do not depend on the moment at which the panic button was
+    pressed.
+    """
     if not events or not isinstance(events[-1], PanicStopped):
         return len(events)
     steps = [n for n, event in enumerate(events) if isinstance(event, StepStarted)]
@@ -46,8 +47,9 @@ def settled(events: Sequence[AnyEvent]) -> int:
 
 
 def difference(trace: Trace, folder: Path) -> str | None:
-    """Repeat a run as `repetition` does, and return the first difference as a sentence, even if it is only in
-    the last digits. Returns None if there is no difference."""
+    """Repeat a run as `repetition` does, and return the first difference as a sentence. Numbers that differ only in
+    their last digits count as different, too. Returns None if there is no difference.
+    """
     found = repetition(trace, folder)
     return found.rounded or found.parts
 

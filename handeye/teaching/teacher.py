@@ -50,7 +50,7 @@ class Teacher:
 
     @property
     def unsaved(self) -> list[str]:
-        """Names of the positions that are missing in the file, or have other values there."""
+        """Names of the positions that are missing in the file, or whose values differ from those in the file."""
         now, then = (tomllib.loads(text).get("positions", {}) for text in (self.text, self.saved))
         return [name for name in {**then, **now} if now.get(name) != then.get(name)]
 
@@ -166,7 +166,7 @@ class Teacher:
     # -- going back -----------------------------------------------------------------------------------
 
     def undo(self) -> str:
-        """Undo the last motion or the last stored name, and return a sentence that says which. The saved file
+        """Undo the last motion or the last stored name, and return a sentence that says what was undone. The saved file
         is not changed. Raises Refused if there is nothing to undo.
         """
         if not self._before:

@@ -2,8 +2,9 @@
 
 Plain closing would drag the object to the middle of the hand. In centring, once a finger touches, the hand moves
 towards the side of that finger, and the fingers close more slowly, so that this finger comes off the object again. The
-motion ends when both fingers touch. If one finger keeps touching although the hand has moved far enough to free it,
-its switch is stuck, the wrong finger reported the touch, or the object is held against the finger.
+motion ends when both fingers touch. If one finger keeps touching although the hand has moved far enough to free the
+finger, there are three possible causes: the finger's switch is stuck, the wrong finger reported the touch, or the
+object is held against the finger.
 """
 
 from dataclasses import dataclass, field
@@ -27,8 +28,8 @@ deflection of the arm under 18 N.
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CentringStep:
-    """Changes of set-points in one servo period: of the finger gap (m), and of the hand along the y axis of the hand
-    (m).
+    """The changes of two set-points in one servo period: the change of the finger gap (m), and the motion of the hand
+    along its y axis (m).
     """
 
     gap: float = 0.0

@@ -37,7 +37,7 @@ class Trip:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class ActiveGuard:
-    """An active guard; `axis` is the unit vector of the force or moment that it watches, shape (3,), in W, or None."""
+    """An active guard. `axis` is the unit vector of the watched force or moment (shape (3,), in W), or None."""
 
     guard: GuardKind
     limit: float
@@ -96,8 +96,8 @@ class AgainstMonitor:
 
 @dataclass(slots=True, kw_only=True)
 class TorqueMonitor:
-    """Trips when the motor holds a torque (N m) in either direction for some time. The peak at the start does not
-    count as a tight screw.
+    """Trips when the motor holds a torque (N m) in either direction for some time. The short peak of the torque when
+    the motor starts does not trip the monitor.
     """
 
     limit: float

@@ -1,7 +1,7 @@
 """Limits of plausible sensor readings, and models of the gap between closed fingers.
 
-The limits allow for twice the stated errors of the devices (see the variation tables of the tasks). Worlds of the high
-level have such errors.
+The limits allow for twice the stated errors of the devices (see the variation tables of the tasks). In worlds of the
+level `high`, the errors are twice as large as stated.
 """
 
 from typing import Final
@@ -144,8 +144,8 @@ held the object).
 
 
 def least_gap(minimum: float) -> float:
-    """Return the least gap (m) that shows an object at least as thick as `minimum` (m). If `minimum` is 0, any
-    object counts.
+    """Return the least gap (m) at which the fingers are sure to hold an object at least as thick as `minimum` (m). If
+    `minimum` is 0, any object counts.
     """
     return minimum or EMPTY_GAP
 
@@ -169,6 +169,6 @@ def as_before(gap: float, kept: float, closer: float = SKEW, wider: float = SAME
 
 def too_early(gap: float, kept: float) -> bool:
     """Return True if closing fingers touch at a much wider gap (m) than in the earlier hold. The object then does not
-    lie in the middle.
+    lie in the middle of the hand.
     """
     return gap - kept > 2 * OFF_MIDDLE

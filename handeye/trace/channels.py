@@ -124,7 +124,7 @@ NUMBERS: Final = {channel.topic: number for number, channel in enumerate(CHANNEL
 def nanoseconds(time: float) -> int:
     """Convert a simulated time (s) to ns, as traces store it.
 
-    The time is rounded to a microsecond. The clock of the cell is a sum of many steps, and the clock of the events is
-    rounded; after this rounding, the two agree.
+    The time is rounded to a microsecond. Without this rounding, the clock of the cell (a sum of many steps) would
+    differ slightly from the clock of the events (a rounded number).
     """
     return round(time * 1e6) * 1000

@@ -26,8 +26,8 @@ class Repetition:
 def compared(a: Trace, b: Trace, *, events: int | None = None, unseen: int = 0) -> Repetition:
     """Compare the contents of two traces, which may be compressed differently.
 
-    If `events` is given, only that number of events, from the first one on, and the messages before and between them
-    are compared. Messages recorded before event number `unseen` are left out. The two runs may have used different
+    If `events` is given, compare only the first N events, where N is `events`, and the messages before and between
+    these events. Messages recorded before event number `unseen` are left out. The two runs may have used different
     processors and versions.
     """
     if a.plan != b.plan:

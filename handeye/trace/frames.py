@@ -78,7 +78,7 @@ Mask = NDArray[np.bool_]
 
 
 class Frames:
-    """The poses of a cell's bodies, as the simulator computed them last: one physics step before the tick."""
+    """The poses of a cell's bodies, as the simulator computed them last: one physics step before the present tick."""
 
     def __init__(self, truth: Truth, joints: tuple[str, ...]) -> None:
         """Observe a cell. `joints` are the names of the arm's joints, in the order of the arm."""

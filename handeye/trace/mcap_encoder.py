@@ -43,7 +43,7 @@ _CRC: Final = struct.Struct("<I")
 
 class McapEncoder:
     """Encodes an MCAP file in pieces. Together, the pieces form the file if they are written one after another. The
-    results of `part` do not belong to the finished file: the whole chunk replaces them.
+    results of `part` do not belong to the finished file: when a chunk has ended, the whole chunk replaces them.
     """
 
     def __init__(self) -> None:
@@ -176,8 +176,8 @@ class McapEncoder:
         return b"".join([data.end(), checked, _CRC.pack(zlib.crc32(checked)), MCAP0_MAGIC])
 
     def _chunk(self, start: int) -> Chunk | None:
-        """Return the rest of the chunk in progress, from the byte `start` on. Returns None if the rest contains no
-        message.
+        """Return the rest of the chunk in progress. The rest begins at the byte `start`. Returns None if the rest
+        contains no message.
         """
         times = [time for index in self._index.values() for time, place in index if place >= start]
         if not times:

@@ -147,7 +147,7 @@ class GrowingFile:
 @dataclass(frozen=True, slots=True)
 class _Complaining:
     """A context that turns an error of the operating system into a CannotWrite. After any exception, nothing more is
-    written: after Ctrl-C, the chunk may be incomplete.
+    written, because the chunk may be incomplete (for example, after Ctrl-C).
     """
 
     about: GrowingFile

@@ -30,10 +30,11 @@ class MovedFrames:
         Bodies that are put away are written only if `anew` is True, because the poses of such bodies do not matter. A
         body that has ceased to exist, such as the carrier of a screw that was turned out, counts as put away.
 
-        Each pose is compared with the last pose that was written. Earlier comparisons determine which pose that is.
-        The first round assumes that nothing was written. Each further round starts from the rows that the round before
-        it chose to write. The rounds end when nothing changes. Each round settles at least one of the `m` times.
-        Frames that rest, or that move all the time, need at most three rounds.
+        Each pose is compared with the last pose that was written. Which pose was written last depends on earlier
+        comparisons. Therefore the comparisons are made in rounds. The first round assumes that nothing was written.
+        Each further round assumes that the rows were written that the round before it chose. The rounds end when
+        nothing changes. Each round settles at least one of the `m` times. Frames that rest, or that move all the time,
+        need at most three rounds.
         """
         poses[~there, 2] = 2 * PUT_AWAY
         rows = np.concatenate([self.written[None], poses])

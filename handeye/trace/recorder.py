@@ -44,8 +44,8 @@ class PictureSource:
 class Recorder:
     """Writes the trace of a run. When the run goes back, the messages about the undone steps are removed.
 
-    A run that was interrupted and resumed leaves the same bytes as an uninterrupted run. The first write error
-    raises CannotWrite, and nothing more is written.
+    A run that was interrupted and resumed leaves the same trace, byte for byte, as an uninterrupted run. The first
+    write error raises CannotWrite, and nothing more is written.
     """
 
     def __init__(
@@ -132,7 +132,7 @@ class Recorder:
         self._writing.file.sync()
 
     def cut(self, events: int) -> None:
-        """Remove everything after the events that remain. `events` is the number of these events."""
+        """Keep the first N events, where N is `events`, and remove everything after them."""
         old = self._writing
         if not old.file.broken:
             old.file.sync()

@@ -112,7 +112,7 @@ def _unpacked(data: bytes) -> bytes:
 
 def read_messages(data: bytes, *, lenient: bool = False) -> Iterator[RawMessage]:
     """Yield the messages in the complete chunks of a file. A damaged chunk raises DamagedTrace. If `lenient` is True,
-    a damaged chunk ends the messages instead.
+    the messages end before the first damaged chunk, and nothing is raised.
     """
     topics: dict[int, str] = {}
     for opcode, body in _records(data):
@@ -178,7 +178,7 @@ def until(messages: Iterable[RawMessage], events: int | None) -> Iterator[RawMes
 
 
 def known(data: bytes, events: Sequence[Event]) -> int:
-    """Return the number of leading events in `events` that a trace contains unchanged."""
+    """Return how many of `events`, counted from the first, a trace contains unchanged."""
     written = (message.data for message in read_messages(data, lenient=True) if message.topic == EVENTS)
     count = 0
     for event, there in zip(events, written, strict=False):

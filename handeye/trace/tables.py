@@ -207,8 +207,8 @@ EXPORT: Final = FolderKind(
 def export_tables(
     path: Path, trace: Callable[[], Trace], kind: Format, *, overwrite: bool
 ) -> tuple[Table, ...]:
-    """Write the tables of a trace to a folder, and return them. The function `trace` reads the trace. It is called
-    only after the folder has been checked.
+    """Write the tables of a trace to a folder, and return them. `trace` is a function that reads the trace. This
+    function is called only after the folder has been checked.
     """
     check_folder(path, EXPORT, overwrite=overwrite)
     made = tables(trace())
@@ -223,8 +223,8 @@ def check_tables(path: Path, kind: Format) -> None:
 
 
 def write_tables(path: Path, made: Sequence[Table], kind: Format, units: str = _SI) -> None:
-    """Write tables to a folder, replacing the tables in it, with a README that describes the columns. `units`
-    is the README's sentence about units.
+    """Write tables to a folder, together with a README that describes the columns. Tables that are already in the
+    folder are replaced. `units` is the README's sentence about units.
     """
     check_folder(path, EXPORT, overwrite=True)
     written = _WRITERS[kind]

@@ -88,9 +88,9 @@ eighth of a millimetre. For rotations, one step means a turn of at most .014 deg
 def write_thinned(trace: Trace, path: Path) -> int:
     """Write a thinned trace of a run. Returns the number of servo periods in the thinned trace.
 
-    The thinned trace lacks the joints, hand and frames of all other periods. It also lacks the shapes of the bodies,
-    because only other programs use these shapes. Frames are rounded. Everything else is unchanged, byte for byte.
-    Raises Refused if the trace is already thinned or contains no motion.
+    The thinned trace lacks the joints, hand and frames of the periods that are not kept. It also lacks the shapes of
+    the bodies, because only other programs use these shapes. Frames are rounded. Everything else is unchanged, byte
+    for byte. Raises Refused if the trace is already thinned or contains no motion.
     """
     if trace.thinned:
         raise Refused(f"{trace.name} is already thinned")

@@ -194,8 +194,8 @@ class Trace:
                 `fine`.
 
         Raises:
-            InvalidInput: for the same reasons as `at`; or the size or the number of exposures is out of range,
-                there is no such camera or film, or OpenGL is missing.
+            InvalidInput: `at` refuses the time, the size or the number of exposures is out of range, there is no such
+                camera or film, or OpenGL is missing.
         """
         from handeye.cell.exposures import exposing, photographed
         from handeye.cell.posed import posed

@@ -93,7 +93,7 @@ class TraceWriter:
         self.file.write(ANNOTATIONS, nanoseconds(time), annotations(self._taken[picture], marks))
 
     def periods(self, waiting: Sequence[tuple[ServoPeriod, Poses, Mask]]) -> None:
-        """Write servo periods, and the poses of the frames that have moved in each."""
+        """Write servo periods. For each period, also write the poses of the frames that have moved."""
         periods, poses, there = zip(*waiting, strict=True)
         for period, moved in zip(
             periods, self._moved.to_write(np.stack(poses), np.stack(there)), strict=True

@@ -48,7 +48,7 @@ def run_plan(
     """Execute a plan in a world, and let the referee judge the result.
 
     Args:
-        meter: measures the host time of the run; by default, the time is measured from this call on.
+        meter: measures the host time of the run; by default, the measurement begins with this call.
         viewed: called for each view of the camera calibration, with the number of the view and the total number
             of views.
         halt: the panic button, polled in every servo period.

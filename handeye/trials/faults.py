@@ -73,7 +73,7 @@ class PanicInStage(Observer):
         return [self]
 
     def down(self) -> bool:
-        """Return True once: at the first poll after the button was due to be pressed."""
+        """Return True once: at the first poll after the time at which the button must be pressed."""
         hit = self._under_way and self._left <= 0 and not self._hit
         self._hit = self._hit or hit
         return hit
@@ -122,8 +122,8 @@ class FaultRow(TrialRow, frozen=True, kw_only=True):
 
 
 def chosen(catalogue: Catalogue, names: Sequence[str]) -> list[FaultKind]:
-    """Return the faults with these names or in these groups; without names, the faults of the task's matrix, which
-    are tried by default. Raises InvalidInput for an unknown name.
+    """Return the faults with these names or in these groups. If `names` is empty, return the faults that are tried by
+    default: the faults of the task's matrix. Raises InvalidInput for an unknown name.
     """
     found = [kind for name in names or catalogue.matrix for kind in catalogue.select(name)]
     return list({kind.name: kind for kind in found}.values())

@@ -47,7 +47,7 @@ def rate(successes: int, trials: int) -> Rate:
 
 def mcnemar(only_first: int, only_second: int) -> float:
     """Return the two-sided p-value of McNemar's exact test: if neither batch is better, the probability that the pairs
-    with different outcomes divide between the batches at least as unequally as here.
+    with different outcomes divide between the batches at least as unequally as these pairs do.
     """
     from scipy.stats import binomtest
 
@@ -57,7 +57,7 @@ def mcnemar(only_first: int, only_second: int) -> float:
 
 def signed_rank(differences: Sequence[float]) -> float:
     """Return the two-sided p-value of Wilcoxon's signed-rank test: if neither batch is better, the probability that
-    the differences favour one of the batches at least as strongly as here.
+    the differences favour one of the batches at least as strongly as `differences` do.
     """
     from scipy.stats import wilcoxon
 

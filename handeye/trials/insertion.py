@@ -168,7 +168,7 @@ class InsertionWork:
     conditions: Mapping[str, Condition]
 
     def __call__(self, case: Case) -> list[InsertionRow]:
-        """Fetch the pin once, and execute all trials of the case from that state."""
+        """Fetch the pin once. Begin every trial of the case in the state in which the hand holds the pin."""
         condition = self.conditions[case.condition]
         last = InsertionTrial(seed=case.seed, number=len(case.trials) - 1)
         found = zip(case.trials, trials_in_world(condition, last), strict=True)

@@ -1,1 +1,1 @@
-"""Failures in a plan or a run, as facts, and the sentences that describe them."""
+"""The facts about failures in a plan or a run, and the sentences that state these facts."""

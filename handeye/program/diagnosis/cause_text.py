@@ -23,7 +23,9 @@ def error_sentence(number: int, cause: Cause | None) -> str:
 
 
 def call_sentence(message: str, error: int | None, cause: Cause | None) -> str:
-    """Write the sentence for a call to the operator: the program's own message, the error, or the cause."""
+    """Write the sentence for a call to the operator: the program's own message if it has one, or else the error, or
+    else the cause.
+    """
     if message:
         return message
     if error is not None:
@@ -32,7 +34,7 @@ def call_sentence(message: str, error: int | None, cause: Cause | None) -> str:
 
 
 def cause_sentence(cause: Cause) -> str:
-    """Write the sentence for a cause. The sentence is empty if the meaning of the error already says everything."""
+    """Write the sentence for a cause. The sentence is empty if the cause adds nothing to the meaning of the error."""
     if isinstance(cause, SenseCause):
         return doubt_sentence(cause)
     match cause:

@@ -1,4 +1,4 @@
-"""Causes of errors and of operator calls, as facts in SI units. `cause_text` has their sentences."""
+"""Causes of errors and of operator calls, as facts in SI units. `cause_text` writes the sentences for these causes."""
 
 from typing import Literal
 
@@ -44,8 +44,9 @@ class BeyondArm(CauseRecord, frozen=True, kw_only=True):
 
 
 class JointBehind(CauseRecord, frozen=True, kw_only=True):
-    """A joint did not follow its set-point. `swings` is True if the joint was far off on both sides during the motion.
-    If the motion should end at the place of a part, `of` is that part.
+    """A joint did not follow its set-point. `swings` is True if, during the motion, the joint was first far off its
+    set-point on one side and then on the other side. If the motion should end at the place of a part, `of` is that
+    part.
     """
 
     joint: str
@@ -56,8 +57,9 @@ class JointBehind(CauseRecord, frozen=True, kw_only=True):
 class HandAstray(CauseRecord, frozen=True, kw_only=True):
     """The hand is off its set-point by `distance` (m) at the end of a motion.
 
-    `joint` is the joint with the largest following error relative to its limit. `swings` is True if this joint was far
-    off on both sides during the motion. If the motion should end at the place of a part, `of` is that part.
+    `joint` is the joint with the largest following error relative to its limit. `swings` is True if, during the
+    motion, this joint was first far off its set-point on one side and then on the other side. If the motion should end
+    at the place of a part, `of` is that part.
     """
 
     distance: float
@@ -67,8 +69,8 @@ class HandAstray(CauseRecord, frozen=True, kw_only=True):
 
 
 class HandPushed(HandAstray, frozen=True, kw_only=True):
-    """The hand is off its set-point at the end of a motion in which the screwdriver turned. A screw that turns in or
-    out of its thread, faster than the hand moves, pushes or pulls the screwdriver.
+    """The hand is off its set-point at the end of a motion in which the screwdriver turned. If a screw turns into or
+    out of its thread faster than the hand moves, the screw pushes or pulls the screwdriver.
     """
 
 
@@ -215,8 +217,8 @@ class GasketWrong(CauseRecord, frozen=True, kw_only=True):
 
 
 class PartAstray(CauseRecord, frozen=True, kw_only=True):
-    """A part has moved by `off` (m) relative to its surroundings, and a fraction `unlike` of the part looks
-    different.
+    """A part has moved by `off` (m) relative to its surroundings. The fraction `unlike` of the part's area looks
+    different from before.
     """
 
     off: float
@@ -256,7 +258,7 @@ class UndoResisted(CauseRecord, frozen=True, kw_only=True):
 
 
 class HoldOff(CauseRecord, frozen=True, kw_only=True):
-    """The gap (m) differs from `kept` (m), the gap at the time of the step."""
+    """While a step is reversed, the gap (m) differs from `kept` (m), the gap when the step was executed."""
 
     gap: float
     kept: float
@@ -264,7 +266,9 @@ class HoldOff(CauseRecord, frozen=True, kw_only=True):
 
 
 class MetEarly(CauseRecord, frozen=True, kw_only=True):
-    """While closing, the fingers touched at a wider gap (m) than `kept` (m), the gap at the time of the step."""
+    """While the fingers closed to reverse a step, they touched at a gap (m) wider than `kept` (m), the gap when the
+    step was executed.
+    """
 
     fingers: tuple[bool, bool]
     gap: float

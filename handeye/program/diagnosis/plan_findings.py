@@ -1,4 +1,6 @@
-"""Findings of the planner, each at a step, as facts in SI units. The language has their sentences."""
+"""Findings of the planner, as facts in SI units. Each finding belongs to a step. The sentences for the findings are
+part of each language.
+"""
 
 from handeye.core.record import Record
 from handeye.program.diagnosis.reach import (

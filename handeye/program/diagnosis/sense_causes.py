@@ -1,4 +1,6 @@
-"""Reasons why a sensor, a motor or a drive is doubted, as facts in SI units. `sense_text` has their sentences."""
+"""Reasons to doubt a sensor, a motor or a drive, as facts in SI units. `sense_text` writes the sentences for these
+reasons.
+"""
 
 from handeye.core.record import Vector3
 from handeye.program.diagnosis.cause_record import CauseRecord, JointName
@@ -16,7 +18,7 @@ class SwitchesOpen(CauseRecord, frozen=True, kw_only=True):
     """The switches of `fingers` are open although an object holds the driven fingers apart at `gap` (m).
 
     `fits` is True if the gap fits the object that should be held. If the gap does not fit, or if the thickness of
-    the object is unknown, another object may stand between the fingers where no switch feels it.
+    the object is unknown, the fingers may have met a wrong object at a point where no switch feels it.
     """
 
     fingers: tuple[bool, bool]
@@ -25,8 +27,8 @@ class SwitchesOpen(CauseRecord, frozen=True, kw_only=True):
 
 
 class SwitchesCrossed(CauseRecord, frozen=True, kw_only=True):
-    """The switch of one of the `fingers` stays closed although the hand has moved by `moved` (m) towards the side of
-    that finger, away from the part.
+    """The switch of one of the `fingers` stays closed, although the hand has moved so that this finger is now `moved`
+    (m) farther from the part.
     """
 
     fingers: tuple[bool, bool]
@@ -107,8 +109,8 @@ class RateScatters(CauseRecord, frozen=True, kw_only=True):
 
 class JointAlone(CauseRecord, frozen=True, kw_only=True):
     """A joint needs a torque (N m, or N if prismatic) that no force on the hand explains. `friction` is the torque
-    that was measured at the start; `friction` is None if the joint does not move at all. `one_way` is True if the
-    joint moved in only one direction, so that a weight would have the same effect.
+    that was measured before the program began; `friction` is None if the joint does not move at all. `one_way` is True
+    if the joint moved in only one direction. In that case, a weight would have the same effect as friction.
     """
 
     joint: JointName
@@ -118,9 +120,7 @@ class JointAlone(CauseRecord, frozen=True, kw_only=True):
 
 
 class DrivesUnlike(CauseRecord, frozen=True, kw_only=True):
-    """Either the drives of these joints give these multiples of the commanded torque, or an external force acts on the
-    hand.
-    """
+    """Either the drives of `joints` give the commanded torques times `factors`, or an external force acts."""
 
     joints: tuple[JointName, ...]
     factors: tuple[float, ...]
@@ -145,14 +145,14 @@ class CurrentShort(CauseRecord, frozen=True, kw_only=True):
 
 
 class MotorSlow(CauseRecord, frozen=True, kw_only=True):
-    """The motor stopped speeding up after the fraction `share` of the usual time, so it turns too slowly."""
+    """The motor turns too slowly: it reached its final speed in the fraction `share` of the usual time."""
 
     share: float
 
 
 class MotorFast(CauseRecord, frozen=True, kw_only=True):
-    """The motor runs free, but was still speeding up after the multiple `times` of the usual time, so it turns too
-    fast.
+    """The motor turns too fast: nothing loads the motor, but its speed still increased after `times` times the usual
+    time.
     """
 
     times: float
@@ -168,7 +168,7 @@ class ScrewHard(CauseRecord, frozen=True, kw_only=True):
 
 
 class CurrentSilent(CauseRecord, frozen=True, kw_only=True):
-    """The screwdriver ran, but the current of its motor showed at most this torque (N m)."""
+    """The screwdriver ran, but the current of its motor never showed more than `torque` (N m)."""
 
     torque: float
 

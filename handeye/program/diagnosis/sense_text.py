@@ -1,4 +1,4 @@
-"""Sentences for the reasons why a sensor, a motor or a drive is doubted, in inches, degrees and ounces."""
+"""Sentences for the reasons to doubt a sensor, a motor or a drive. The sentences use inches, degrees and ounces."""
 
 from typing import assert_never
 
@@ -136,7 +136,9 @@ def _numb(fingers: tuple[bool, bool]) -> str:
 
 
 def _untouched(cause: s.SwitchesOpen) -> str:
-    """Write why the switches are open. A switch that is closed shows that the motor is strong enough."""
+    """Write why the switches are open. If only one switch is open, the motor is not too weak, because it closed the
+    other switch.
+    """
     causes = _numb(cause.fingers) if all(cause.fingers) else _failed(cause.fingers)
     return causes if cause.fits else f"{causes}, or something stands between the fingers beside their tips"
 

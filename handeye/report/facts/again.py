@@ -17,7 +17,7 @@ _TYPED: Final = 20  # with more settings of the world, the command reads them fr
 
 def command(run: RecordedRun) -> str | None:
     """Return the command that repeats a run. Returns None if the run uses code or a task of the caller, because a
-    command line cannot contain these.
+    command line can contain neither code nor a task.
     """
     head = run.trace.head
     if known(head.task) is None or head.own_parts:
@@ -81,5 +81,5 @@ def written(quantity: Quantity | None, value: float) -> str:
 
 
 def _si(unit: Unit) -> Unit:
-    """Return the SI unit of the same dimension."""
+    """Return the SI unit that has the dimension of `unit`."""
     return next(each for each in UNITS.values() if each.dimension == unit.dimension and each.size == 1.0)

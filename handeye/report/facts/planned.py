@@ -97,7 +97,7 @@ def searches(run: RecordedRun) -> tuple[Search, ...]:
 
 
 def _tries(events: tuple[AnyEvent, ...]) -> Iterator[list[tuple[StepStarted, AnyEvent]]]:
-    """Yield, for each search, the steps in which it advanced, each with its event."""
+    """Yield, for each search, the steps in which the search advanced. Yield the event of the advance with each step."""
     step: StepStarted | None = None
     tries: list[tuple[StepStarted, AnyEvent]] = []
     for event in events:
@@ -204,8 +204,8 @@ def _causes(
     known: Mapping[tuple[Mover, str], Cause],
     search: _Search,
 ) -> Iterator[Cause]:
-    """Yield the reasons for the shift of a goal: saved differences, the search and, for the rest of the shift,
-    the last time that vision located the goal's part.
+    """Yield the reasons for the shift of a goal: saved differences and the search. If these do not explain the whole
+    shift, another reason is that vision located the goal's part.
     """
     restored = [event for event in step.events if isinstance(event, Restored)]
     rest = np.subtract(adjusted.shift, np.sum([[0, 0, 0], *(event.difference for event in restored)], axis=0))

@@ -26,7 +26,9 @@ force limit of a guard in use.
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class SensedForce:
-    """The force that the hand exerted in one motion, at n moments between which it can be interpolated."""
+    """The force that the hand exerted in one motion, at n moments. Between these moments, the force can be
+    interpolated.
+    """
 
     times: Array  # s since the run began, shape (n,)
     forces: Array  # N, in the axes of the world, shape (n, 3)
@@ -70,9 +72,9 @@ def _thinned(motion: Forces) -> SensedForce:
 
 
 def tried_places(searches: Sequence[Search], motions: Sequence[GuardedMotion]) -> tuple[TriedPlaces, ...]:
-    """For each search, return the times at which the hand was at the places of the search. For every place but the
-    last, the time is the end of the last guarded motion before the search went on. For the last place, the time is the
-    end of the first guarded motion after the search reached that place.
+    """For each search, return the times at which the hand was at the places of the search. For the last place, the
+    time is the end of the first guarded motion after the search reached the place. For every other place, the time is
+    the end of the last guarded motion before the search left the place.
     """
     ends = np.array([motion.times[-1] for motion in motions])
     return tuple(_tried(search, ends) for search in searches if len(ends) and search.times)
@@ -85,7 +87,9 @@ def _tried(search: Search, ends: Array) -> TriedPlaces:
 
 
 def held_objects(run: RecordedRun) -> tuple[HeldObject, ...]:
-    """Return what the hand held and when, the earliest first. Returns no objects if the task of the run is unknown."""
+    """Return the objects that the hand held, with their times, the earliest first. Returns no objects if the task of
+    the run is unknown.
+    """
     return tuple(_held(run))
 
 

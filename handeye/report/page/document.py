@@ -107,7 +107,7 @@ def packed(name: str, data: bytes) -> Markup:
 
 
 def _digest(content: str) -> str:
-    """Return the expression with which the content security policy permits an element with this content."""
+    """Return the expression for the content security policy that permits a style or script with the text `content`."""
     return f"'sha256-{b64encode(sha256(content.encode()).digest()).decode()}'"
 
 
@@ -117,8 +117,8 @@ def resource(name: str) -> str:
 
 
 def account_page(run: RecordedRun, parts: Sequence[PagePart] = ()) -> bytes:
-    """Return the report of a run of any system, with what the system adds. Equal traces and results give equal
-    pages.
+    """Return the report of a run of any system. `parts` are the sections that the system adds to the report. Equal
+    traces and results give equal pages.
     """
     came = outcome(run)
     said = title(run, came)

@@ -33,5 +33,5 @@ def moments(run: RecordedRun, outcome: Outcome, told: Sequence[CaptionedEvent]) 
 
 
 def json_markup(data: Any) -> Markup:
-    """Encode data as JSON that cannot end the HTML element that contains it."""
+    """Encode data as JSON for an HTML element. No text in the data can end this element."""
     return Markup(msgspec.json.encode(data).decode().replace("<", "\\u003c"))

@@ -116,8 +116,8 @@ def world_quantities(run: RecordedRun) -> Iterator[Markup]:
 
 
 def _quantities(run: RecordedRun) -> tuple[QuantityReport, ...]:
-    """Return the quantities of the run's world. Quantities that the user set come first. Raises InvalidInput if
-    another version of handeye drew the world differently.
+    """Return the quantities of the run's world. Quantities that the user set come first. Raises InvalidInput if this
+    version of handeye generates a world that differs from the world of the run.
     """
     task, world = known_any(run.trace.head.task), run.trace.head.world
     if task is None:

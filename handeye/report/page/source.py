@@ -43,7 +43,7 @@ def listing(program: Program) -> Markup:
 
 
 def numbered_listing(lines: Mapping[int, str]) -> Markup:
-    """Return lines that have numbers of their own."""
+    """Return the lines of a program with the line numbers that the program itself gives."""
     items = (
         element("li", element("code", line), id=line_id(number), value=number)
         for number, line in lines.items()

@@ -114,7 +114,7 @@ def _course(run: RecordedRun) -> Iterator[str]:
 
 
 def _judged(run: RecordedRun, outcome: Outcome) -> Iterator[Markup]:
-    """Yield the referee's verdict on work that is right."""
+    """If the work is right, yield the referee's verdict."""
     if run.result is None or not run.result.referee or not outcome.good:
         return
     shares = [(share, check) for check in run.result.referee.values() if (share := used(check)) is not None]
@@ -222,8 +222,9 @@ def _senses(run: RecordedRun, outcome: Outcome, told: Sequence[CaptionedEvent]) 
 
 
 def _tells(each: CaptionedEvent, run: RecordedRun, outcome: Outcome) -> bool:
-    """Return True if an event may explain the outcome: it happened in the same stage, and is not itself the
-    reported reason."""
+    """Return True if an event may explain the outcome: it happened in the stage in which the run ended, and is not
+    itself the reported reason.
+    """
     begun = max((stage.begin for stage in run.trace.stages), default=0.0)
     call = outcome.call
     reason = isinstance(each.event, ErrorRaised) and call is not None and each.event.number == call.error

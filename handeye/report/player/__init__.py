@@ -7,9 +7,10 @@ decompresses scene and tracks (`DecompressionStream("gzip")`) and passes them to
 const player = await createPlayer(canvas, scene, tracks, options);
 ```
 
-Without WebGL 2 the promise is rejected with an `Error` whose message is a sentence. Times are seconds since the
-run began. There are two options. `still`: the view changes at once instead of gliding; the default follows the
-browser's setting for reduced motion. `exposures`: the number of pictures that are averaged when nothing moves.
+If the browser has no WebGL 2, the promise is rejected with an `Error`, whose message explains this to the reader.
+Times are seconds since the run began. There are two options. `still`: the view changes at once instead of gliding; the
+default follows the browser's setting for reduced motion. `exposures`: the number of pictures that are averaged when
+nothing moves.
 
 | member | |
 |---|---|
@@ -29,10 +30,11 @@ pixels), or to null if the place is behind the eye |
 | `frames` | number of pictures drawn so far |
 | `destroy()` | release canvas and graphics memory |
 
-Gestures: one finger or the left button turns the view, two fingers or the right button move it, a pinch zooms.
-While the canvas has the focus, the wheel and the plus and minus keys zoom, the arrow keys turn the view, and
-Shift with the arrow keys moves it. The page sets the size of the canvas. The style `touch-action` of the canvas
-determines which touches it gets: `none` gives it all touches, `pan-y` all except vertical scrolling.
+Gestures: one finger or the left button turns the view, two fingers or the right button move it, a pinch zooms. While
+the canvas has the focus, the wheel and the plus and minus keys zoom, the arrow keys turn the view, and Shift with the
+arrow keys moves it. The page sets the size of the canvas. The style `touch-action` of the canvas determines which
+touches the canvas receives. With `none`, the canvas receives all touches; with `pan-y`, it receives all touches except
+vertical scrolling.
 """
 
 from pathlib import Path
@@ -61,7 +63,7 @@ def scene_bytes(trace: Trace) -> bytes:
 
 
 def tracks_bytes(trace: Trace) -> bytes:
-    """Return the tracks of all visible bodies in a run and the run's clock, compressed."""
+    """Return two parts of a run as compressed bytes: the tracks of all visible bodies, and the clock."""
     begin, end = trace.covers
     return tracks.tracks_bytes(
         shown_poses(trace),
@@ -84,7 +86,7 @@ def shown_poses(trace: Trace) -> dict[str, Poses]:
 
 def script() -> str:
     """Return the script, `const createPlayer = ...;`. The script contains all modules, so that a page can embed the
-    script and state its hash.
+    script and permit it by its hash.
     """
     parts = [_plain((SOURCES / f"{name}.js").read_text("utf-8")) for name in MODULES]
     return f'const createPlayer = (() => {{\n"use strict";\n{"".join(parts)}return createPlayer;\n}})();\n'

@@ -139,8 +139,9 @@ class Names:
     model: Any
 
     def body(self, number: int) -> str:
-        """Return the display name of a body: the name that the scene defines, or the body's own name in words,
-        such as `pin 0`."""
+        """Return the display name of a body: the name that the scene defines for display or, if there is none, the
+        body's own name in words, such as `pin 0`.
+        """
         name = self.model.body(number).name
         stem = name.rstrip("0123456789")
         if name in self._called:
@@ -148,8 +149,9 @@ class Names:
         return _words(self._called.get(stem, stem) + name.removeprefix(stem))
 
     def part(self, shape: int) -> str:
-        """Return the display name of a shape of the world: the shape's name without its number, or the name of
-        its material."""
+        """Return the display name of a shape of the world: the shape's name without its number or, if the shape has no
+        name, the name of its material.
+        """
         material = self.model.geom_matid[shape]
         made = self.model.material(material).name if material >= 0 else "something"
         return _words((self.model.geom(shape).name or made).rstrip("0123456789"))

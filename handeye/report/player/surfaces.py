@@ -97,8 +97,8 @@ def creased(points: Array, triangles: NDArray[Any]) -> Surface:
 
 
 def _distinct(rows: NDArray[Any]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """Return the indices of the distinct rows in order of first occurrence, and for each row the number of the
-    distinct row that equals it.
+    """Return two arrays. The first has the indices of the distinct rows, in order of first occurrence. The second
+    gives, for each row, the number of the distinct row that equals it.
     """
     _, first, number = np.unique(rows, axis=0, return_index=True, return_inverse=True)
     order = np.argsort(first)

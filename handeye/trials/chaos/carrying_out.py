@@ -90,8 +90,8 @@ class ScheduleRunner:
         self._lost: list[str] = []
 
     def carry_out(self, stops: Sequence[StopCondition], *, broken: bool) -> ScheduleRun:
-        """Execute the schedule until one of `stops`. The interruptions of the schedule are made only if `broken`
-        is True.
+        """Execute the schedule until one of the conditions in `stops` is met. The interruptions of the schedule are
+        made only if `broken` is True.
         """
         runner = pause = None
         for interruption in self._schedule.breaks if broken else ():

@@ -30,9 +30,9 @@ class LastLook:
         events: Sequence[AnyEvent],
         begun: float,
     ) -> bool:
-        """Return True if one of the faults spoiled the work that a failed finding concerns, and did so after the
-        program's last look at this work, or by too little to be noticed. The faults began at `begun` (s); `events` are
-        those of the run since then.
+        """Return True if one of the faults spoiled the work that a failed finding concerns, and the program could not
+        notice this. The program cannot notice a change after its last look at this work, or a change that is too
+        small. The faults began at `begun` (s); `events` are those of the run since then.
         """
         return any(
             name.startswith(work.findings) and self._unseen(name, finding, work, events, begun + work.delay)

@@ -181,13 +181,13 @@ def _sound(carried: ScheduleRun) -> Iterator[Violation]:
 
 
 def _silent(schedule: Schedule, carried: ScheduleRun, start: Checkpoint) -> tuple[list[str], list[str]]:
-    """Return sentences on the failed findings about work that the program considers right. First come the failures
-    that the program should have noticed, then the failures that faults of the schedule caused after the program's last
-    look.
+    """Return two lists of sentences on failed findings, if the program considers the work right. The first list has
+    the failures that the program should have noticed. The second list has the failures that faults of the schedule
+    caused after the program's last look.
 
-    A completed stage is judged by the findings that must hold from its end on. If such a finding fails, the run
-    continues, because a later check of the program may notice the failure. The failure is silent only if the
-    program ends with a wrong pump.
+    A completed stage is judged by the findings that must hold at the end of this stage and later. If such a finding
+    fails, the run continues, because a later check of the program may notice the failure. The failure is silent only
+    if the program ends with a wrong pump.
     """
     runner = carried.runner
     happened = runner.events[len(start.events) :]
@@ -288,7 +288,7 @@ class ChaosWork:
 
 def worlds(seed: int, count: int, *, levels: bool = True) -> list[WorldSpec]:
     """Return the worlds for the schedules of a seed: the world of this seed and the worlds of the seeds that follow.
-    With `levels`, successive worlds have different levels of error.
+    If `levels` is True, successive worlds have different levels of error.
     """
     chosen = LEVELS if levels else LEVELS[:1]
     return [WorldSpec(seed=seed + number, level=chosen[number % len(chosen)]) for number in range(count)]

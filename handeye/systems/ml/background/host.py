@@ -21,7 +21,8 @@ Procedure = Callable[..., None]  # its parameters are the interpreter and the va
 class Host:
     """A host that keeps programs in its memory.
 
-    `procedures` maps the names of commands, `UPROCA` to `UPROCD`, to the user's functions that they call.
+    The keys of `procedures` are the names of commands, from `UPROCA` to `UPROCD`. The values are the user's functions
+    that these commands call.
     """
 
     def __init__(self, procedures: Mapping[str, Procedure] | None = None) -> None:

@@ -121,8 +121,8 @@ def _stored(mos: "Interpreter", code: str) -> None:
 
 
 def _after_end(mos: "Interpreter", code: str) -> int:
-    """Find the next NEXTI or NEXTJ (`code`), and return the number of the statement after it; 0 if no statement
-    follows.
+    """Find the next statement with the command `code`, which is NEXTI or NEXTJ. Return the number of the statement
+    that follows it; 0 if no statement follows.
     """
     number = mos.memory.at
     while number:

@@ -27,8 +27,8 @@ def start(mos: "Interpreter", goals: Mapping[int, int], *, wait: bool = True) ->
 
 
 def distances(mos: "Interpreter", values: Mapping[int, int]) -> dict[int, int]:
-    """Return the present goals plus distances. For an absent motor, return the distance itself as its goal; the
-    real-time level then refuses the motion.
+    """Return the goal of each motor in `values`: its present goal plus its distance. For an absent motor, the distance
+    itself is the goal; the real-time level then refuses the motion.
     """
     level = mos.level
     return {
@@ -88,8 +88,8 @@ def go_mean(mos: "Interpreter", one: int, other: int) -> None:
 
 
 def go_line(mos: "Interpreter", one: int, other: int) -> None:
-    """Find the place nearest to the present goals on the straight line through two POINTs, in the space of all motors,
-    and move all motors there. Half a unit is rounded up.
+    """Move all motors to a place on the straight line through two POINTs. In the space of all motors, this place is
+    the point of the line that is nearest to the present goals. Half a unit is rounded up.
     """
     level, a, b = mos.level, mos.program.point(one), mos.program.point(other)
     goals = [level.goal(motor) if motor in level.motors else 0 for motor in range(1, MOTORS + 1)]

@@ -1,8 +1,8 @@
 """The rectilinear arm on a bench, with a wand, strain gauges, a range finder, switches, and inaccurate potentiometers.
 
 A slide does not stop at exactly the same place each time. To simulate this, the slide's potentiometer has an error,
-which is drawn again for each motion. When the slide stops, the reading agrees with the goal, but the slide is
-elsewhere.
+which is random and differs from motion to motion. When the slide stops, the reading agrees with the goal, but the
+slide is elsewhere.
 """
 
 from collections.abc import Callable, Mapping, Sequence
@@ -187,7 +187,7 @@ class RectilinearArm(Axes, Mechanism[ArmState]):
         return np.asarray(self._bends * np.sin(2 * np.pi * q / _WAVE + self._phases) + self._offsets)
 
     def _offset(self, slide: int) -> None:
-        """Draw the error of a slide for its present motion."""
+        """Choose the error of a slide for its present motion at random."""
         name = f"repeatability.{_SLIDE_NAMES[slide]}.{self._motions[slide]}"
         self._offsets[_SLIDES][slide] = self._width * self._world.numbers(name).uniform(-0.5, 0.5)
 

@@ -1,4 +1,6 @@
-"""Faults of the rectilinear arm: stuck sensors, and dead, slow or weak motors. The jobs declare the faults of parts."""
+"""Faults of the rectilinear arm: stuck sensors, and dead, slow or weak motors. Faults of parts are declared by the
+jobs that use these parts.
+"""
 
 from dataclasses import replace
 from typing import Final, Literal

@@ -99,7 +99,7 @@ class LeftArm(Axes, Mechanism[LeftState]):
         self._servos.power(on)
 
     def signal(self, interlock: str, *, on: bool = True) -> None:
-        """Switch the signal of an interlock on or off, as a person or a device of the room does."""
+        """Switch the signal of an interlock on or off. In a real room, a person or a device would switch it."""
         if interlock not in INTERLOCKS:
             raise NoSuchName(f"there is no interlock {interlock}; the interlocks are {', '.join(INTERLOCKS)}")
         self._signalled = tuple(sorted({*self._signalled} - {interlock} | ({interlock} if on else set())))

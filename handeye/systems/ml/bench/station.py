@@ -1,4 +1,6 @@
-"""A work station: the rectilinear arm in a scene, with its tools, all that a job adds, and perhaps the left arm."""
+"""A work station: a scene with the rectilinear arm, the arm's tools and the objects of a job. The scene may also have
+the left arm.
+"""
 
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Final
@@ -29,7 +31,7 @@ FUSE: Final = 200.0  # N on the work table that blow its structural fuse
 
 
 def scene(world: ArmWorld, *, wand: bool = True) -> mujoco.MjSpec:
-    """Return the scene of the arm over an empty table, with or without the wand in its left finger."""
+    """Return the scene of the arm over an empty table, with or without the wand in the arm's left finger."""
     spec = mujoco.MjSpec.from_file(str(scenes() / SCENE))
     if not wand:
         for joint in ("wand_x", "wand_y"):
@@ -61,7 +63,7 @@ class Station:
                 motors begin at 0.
             tools: a dictionary from the names of tools of the station to the functions that switch them. Other tools do
                 nothing.
-            others: mechanisms of a job whose state the cell keeps, but which do nothing as time passes.
+            others: further mechanisms of a job. The cell stores their states, but they do nothing as time passes.
             left: True if the scene also has the left arm.
         """
         self.bench = Bench(spec.compile())
@@ -89,7 +91,7 @@ class Station:
         return Machine(arms, self.bench, tell)
 
     def signal(self, interlock: str, *, on: bool) -> None:
-        """Switch the signal of an interlock for all arms, as a person or a device of the room does."""
+        """Switch the signal of an interlock for all arms. In a real room, a person or a device would switch it."""
         self.arm.signal(interlock, on=on)
         if self.left is not None:
             self.left[0].signal(interlock, on=on)
@@ -100,7 +102,7 @@ class Station:
 
 
 def _nothing(value: float) -> None:
-    """Do nothing when a tool is switched that the station lacks."""
+    """Do nothing: the program has switched a tool that the station lacks."""
 
 
 def _stand(bench: Bench, at: Mapping[int, float]) -> None:

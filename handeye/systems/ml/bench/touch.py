@@ -1,5 +1,6 @@
-"""One guarded touch in physics: the hand of the rectilinear arm descends on a block until a strain gauge feels a limit.
-The period in which the sensors are read, the bandwidth of the servo and the speed can be chosen.
+"""One guarded touch in physics: the hand of the rectilinear arm descends on a block until the reading of a strain
+gauge exceeds a limit. The caller chooses the speed, the bandwidth of the servo, and the period in which the sensors
+are read.
 """
 
 from dataclasses import dataclass
@@ -61,9 +62,9 @@ class Touch(Record, frozen=True, kw_only=True):
 
     @property
     def bound(self) -> float:
-        """How far (mm) the slide can move on after the contact, to within a few per cent. The slide moves on until the
-        force on the fingers reaches the limit, then for one period, and then for the time by which the servo lags
-        behind its set-point.
+        """How far (mm) the slide can move on after the contact, to within a few per cent. The distance has three
+        parts. The slide moves until the force on the fingers reaches the limit. It moves on for one period, and then
+        for the time by which the servo lags behind its set-point.
         """
         lag = 2 * _DAMPING / (2 * pi * self.bandwidth)
         return self.limit * GRAM_FORCE / STIFFNESS / MILLIMETRE + self.speed * (self.period * _MS + lag)
@@ -91,8 +92,8 @@ def touch(
     limit: int = LIMIT,
     phase: float = 0.0,
 ) -> Touch:
-    """Let the hand descend on a block, and freeze the hand as the real-time level does: when the sensors are read and
-    a gauge is beyond its limit, the goal becomes the present position.
+    """Let the hand descend on a block, and stop the hand as the real-time level does. When a reading of the sensors
+    shows that a gauge is beyond its limit, the present position becomes the goal.
 
     The guard is set only when the jolt at the start of the motion has died away, so that only the block can trip the
     guard. `Touch.trips` says whether a guard that was set before the start would have tripped in the air.

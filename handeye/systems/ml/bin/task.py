@@ -81,7 +81,7 @@ VARIATION: Final = Variation(*ARM, *PARTS)
 
 
 class Poured(Record, frozen=True, kw_only=True):
-    """The parts before the program begins."""
+    """The true qualities of the parts, as they were before the program began."""
 
     qualities: tuple[Quality, ...]
 

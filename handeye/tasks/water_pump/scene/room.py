@@ -135,7 +135,7 @@ def _add_tripod(shaper: Shaper) -> None:
 
 def _add_light(spec: mujoco.MjSpec, world: PumpWorld) -> None:
     """Add the ambient light of the room, and one lamp that casts shadows. The lamp is at the same distance from the
-    work as in the vision study.
+    work as in the vision study (docs/studies.md).
     """
     d, light = dimensions(), world.light
     target, distance = np.array(d.all("camera.light_target")), d("camera.light_distance")

@@ -99,7 +99,9 @@ def put_base(still: StillPump, place: Place, *, pins: bool) -> None:
 
 
 def look(camera: TvCamera, known: CameraModel, lens: float, point: tuple[float, float, float]) -> View:
-    """Turn the lens, aim and focus as the executor does. Returns the view as the program believes it to be."""
+    """Select the lens, aim the camera, and focus the lens, as the executor does. Returns the view as the program
+    believes it to be.
+    """
     camera.lens(lens)
     camera.aim(*known.aim(point, lens))
     camera.focus(math.dist(point, known.mount))
@@ -109,7 +111,7 @@ def look(camera: TvCamera, known: CameraModel, lens: float, point: tuple[float, 
 def locate(
     camera: TvCamera, known: CameraModel, part: Part
 ) -> tuple[SpecificLocation | Failure, list[tuple[Picture, View, GeneralLocation | None]]]:
-    """Locate the part in both stages of vision. Also returns the pictures used."""
+    """Locate the part with both stages of vision. Also returns the pictures used."""
     x, y, z, _ = part.at
     view = look(camera, known, WIDE, (x, y, z))
     picture = camera.digitise()
@@ -136,8 +138,8 @@ def base_poses(world: PumpWorld, number: int) -> Iterator[Vector3]:
 def known_camera(
     still: StillPump, known: Known, renderer: str, about: tuple[float, float, float]
 ) -> CameraModel:
-    """Return the camera model that the program knows. Simulated sightings are made about the point `about` in W
-    (m). Raises CalibrationFailed.
+    """Return the camera model that the program knows. If `known` is `sightings`, the model is calibrated with
+    simulated sightings of points near `about` (m, in W). Raises CalibrationFailed.
     """
     match known:
         case "lamp":

@@ -1,6 +1,6 @@
 """The quantities in which the cell of a world differs from the cell that the plan assumes.
 
-The program overcomes these errors with vision, touch and search. Joints, holes and screws are numbered from 1.
+The program copes with these differences by vision, touch and search. Joints, holes and screws are numbered from 1.
 """
 
 from collections.abc import Iterator
