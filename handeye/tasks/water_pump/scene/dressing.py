@@ -49,13 +49,9 @@ nearly parallel to the light and look speckled.
 
 
 def add_reels(shaper: Shaper) -> None:
-<<<<<<< HEAD
-    """Add the fronts of two tape drives. Each drive has two reels, and heads below them. One reel is nearly full."""
-=======
     """Add the fronts of two tape drives. Each drive has two reels (one of them is nearly full), and heads below the
     reels.
     """
->>>>>>> wd
     body = shaper.spec.worldbody
     for drive in (0, 1):
         (left, front, _), (right, _, top) = cabinet(drive)
