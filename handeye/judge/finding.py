@@ -30,8 +30,8 @@ class Finding:
         return not self.ok and not self.caution
 
     def limited(self, limit: float) -> "Finding":
-        """Return a finding with the value, unit and subject of this finding, but with the upper limit `limit`. If the
-        value exceeds `limit`, the referee rejects the work.
+        """Return a copy of the finding with `limit` instead of its own limit, in the unit of the finding. If the value
+        is beyond `limit`, the referee rejects the work.
         """
         ok = self.value <= limit if self.relation == "at most" else self.value >= limit
         return replace(self, limit=limit, ok=ok, caution=False)

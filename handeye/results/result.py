@@ -114,8 +114,9 @@ class Check(Record, frozen=True, kw_only=True):
         return f"{self.sentence}: {self.value:.3g}"
 
     def limited(self, limit: float) -> "Check":
-        """Return the same measurement with another limit in the same unit. If the value exceeds the limit, the
-        referee rejects the work."""
+        """Return a copy of the finding with `limit` instead of its own limit, in the unit of the finding. If the value
+        is beyond `limit`, the referee rejects the work.
+        """
         facts = {name: getattr(self, name) for name in self.__struct_fields__ if name != "sentence"}
         return Check.of(Finding(**facts).limited(limit))
 

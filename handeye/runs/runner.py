@@ -81,7 +81,7 @@ class Runner:
         parts: Parts = OWN,
         calibrate: bool = False,
     ) -> None:
-        """Build the cell. If the run begins from a checkpoint, restore the state of the checkpoint. If not, calibrate
+        """Build the cell. If `start` contains a state of the run, restore this state. If not, calibrate
         the cell's camera, or restore the state that an earlier run stored after its calibration.
 
         Args:

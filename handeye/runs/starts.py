@@ -54,7 +54,7 @@ class Conditions(Record, frozen=True, kw_only=True):
 
 
 def starts_folder() -> Path | None:
-    """Return the folder of the user's starts; None if handeye stores no cache."""
+    """Return the folder of the user's starts; None if the user has no cache folder."""
     kept = cache_folder()
     return None if kept is None else kept / "starts"
 

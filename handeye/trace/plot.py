@@ -93,8 +93,8 @@ def _covers(trace: Trace, stage: str) -> tuple[float, float]:
 
 
 def _joints(trace: Trace, rows: slice) -> Iterator[Panel]:
-    """Yield one panel for the revolute joints, and one for the prismatic joints and the fingers. Units are SI
-    if the arm is unknown.
+    """Yield one panel for the revolute joints, and one for the prismatic joints and the fingers. If the arm is
+    unknown, the units are SI units.
     """
     task, measures = known_any(trace.head.task), measures_of(trace.head.task)
     kinds = {} if task is None else task.joint_kinds

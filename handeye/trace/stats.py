@@ -124,8 +124,8 @@ def _table(figures: Statistics) -> Table:
 
 
 def _lines(figures: Statistics) -> Group:
-    """Return the statistics as one paragraph per stage and one for the total. A narrow terminal shows these
-    paragraphs, because a table would break words there.
+    """Return the statistics as one paragraph per stage and one for the total. These paragraphs are for a narrow
+    terminal, on which a table would break words.
     """
     rows = [*((_name(stage), _cells(stage)) for stage in figures.stages), ("all", _cells(figures.total))]
     told = (

@@ -80,7 +80,7 @@ class Table:
         )
 
     def _repr_html_(self) -> str:
-        """Return the first rows as HTML. A slice such as `table[100:110]` shows other rows."""
+        """Return the first rows as HTML. To see other rows, take a slice such as `table[100:110]`."""
         columns = [column for column in self.columns if column.name != "data"]
         heads = [f"{each.name}, {each.unit}" if each.unit else each.name for each in columns]
         rows = zip(*(each.values[:SHOWN_ROWS] for each in columns), strict=True)

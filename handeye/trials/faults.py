@@ -217,7 +217,9 @@ def _named(expected: ExpectedDetection, result: Result) -> bool:
 
 
 def _placed(expected: ExpectedDetection, result: Result) -> bool:
-    """Return True if the run stopped in a stage for which the errors and messages expected for the fault are right."""
+    """Return True if the run stopped in one of the stages in which the fault is expected to be detected. Also return
+    True if the run was not stopped, or if no stages are expected.
+    """
     return not expected.stages or result.stopped_at is None or result.stopped_at in expected.stages
 
 

@@ -1,4 +1,4 @@
-"""Executes fault-free runs, one per world, and stores closely spaced checkpoints of them. Trials start from
+"""Executes fault-free runs, one per world, and stores closely spaced checkpoints of each run. Trials start from
 these checkpoints."""
 
 from collections.abc import Iterator, Sequence

@@ -1,10 +1,10 @@
 """Executes a sweep: trials of one kind in many worlds. Each trial is saved when it ends, and statistics are
 computed over all of them.
 
-A kind is a value of type `Sweep`. A kind defines the record of a trial, the class of each outcome, and the tables
-made from many trials. Everything else is common to all kinds: the folder, from which an interrupted sweep can
-continue (`folder`), statistics with their confidence intervals (`figures`), the output on the terminal
-(`text`), the page (`page`), tables (`tables`), and the comparison of batches (`comparing`).
+A kind is a value of type `Sweep`. A kind defines the record of a trial, the class of each outcome, and the tables made
+from many trials. Everything else is common to all kinds, and is in other modules: `folder` (an interrupted sweep can
+continue from its folder), `figures` (statistics with their confidence intervals), `text` (the output on the terminal),
+`page` (the HTML page), `tables` (tables for other programs), and `comparing` (the comparison of batches).
 """
 
 from collections.abc import Callable, Generator, Mapping, Sequence

@@ -29,8 +29,8 @@ def tables(sweep: Sweep[R], rows: Sequence[R], found: Figures, camera: str = "")
 
 
 def trials(sweep: Sweep[R], rows: Sequence[R], camera: str = "") -> Table:
-    """Return a table with one row per trial: how it ended, why it failed, and all measured values. With a
-    camera, the table also names the renderer.
+    """Return a table with one row per trial: how it ended, why it failed, and all measured values. If `camera` is
+    given, the table also names the renderer.
     """
     failed = [sweep.standing(row) != "right" for row in rows]
     columns = [

@@ -205,8 +205,9 @@ def _serve(there: Connection, limit_s: float | None) -> None:
 
 @contextmanager
 def _limited(limit_s: float | None) -> Iterator[None]:
-    """Within this context, let the operating system end this process when it has used this much more CPU time
-    (s)."""
+    """Within this context, let the operating system end this process when it has used `limit_s` more seconds of CPU
+    time.
+    """
     if limit_s is None or not hasattr(signal, "setitimer"):  # as on Windows
         yield
         return

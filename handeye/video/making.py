@@ -41,8 +41,8 @@ class Video:
 def make_video(
     trace: Trace, path: Path, wanted: VideoRequest, *, overwrite: bool, told: Progress = lambda done, of: None
 ) -> Video:
-    """Write a video of a recorded run, without simulation. Either the whole file is written, or nothing. Raises
-    Taken if the file exists, unless `overwrite`.
+    """Write a video of a recorded run, without simulation. Either the whole file is written, or nothing. Raises Taken
+    if the file exists, unless `overwrite` is True.
     """
     require(trace.head.system, "video", trace.name)
     form = format_of(path)

@@ -33,8 +33,9 @@ class Passage:
 
 
 def passages(trace: Trace, span: Span, *, looks: bool) -> tuple[Passage, ...]:
-    """Return the passages of a time span. Waits for the camera are left out. With `looks`, the video stops at
-    pictures."""
+    """Return the passages of a time span. Waits for the camera are left out. If `looks` is True, the video stops at
+    pictures.
+    """
     pictures = _pictures(trace) if looks else {}
     edges = sorted({*pictures, *(stage.begin for stage in trace.stages_both_ways)})
     found: list[Passage] = []

@@ -88,7 +88,8 @@ def _hands(trace: Trace, stage: Stage) -> list[tuple[float, float, float]]:
 
 def _target(hands: Array) -> Array | None:
     """Return the point at which the camera looks, and the distance of the camera from it. The view contains the region
-    with the most positions of the hand, shape (n, 3). Returns None if the positions hardly differ.
+    in which most of the positions of the hand lie. These positions are `hands`, shape (n, 3). Returns None if the
+    positions hardly differ.
 
     Later positions have more weight, because a part is put down after it is fetched.
     """

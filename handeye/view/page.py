@@ -1,5 +1,5 @@
-"""Builds the page of a live cell: 3D view and script as in the report, updated by the server, a log of replies,
-and a command line.
+"""Builds the page of a live cell. The page shows the 3D view and the script as the report does, and the server updates
+both. The page also has a log of replies and a command line.
 """
 
 from collections.abc import Iterator, Sequence

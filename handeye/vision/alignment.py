@@ -30,8 +30,8 @@ Points = NDArray[np.bool_]  # mask, (256, 333)
 
 
 def aligned(picture: Picture, to: Picture) -> Levels:
-    """Shift a picture so that its unchanged parts coincide with those of another picture, `to`. Points on the border
-    are repeated outwards.
+    """Shift a picture so that its unchanged parts coincide with those of another picture, `to`. Where the shifted
+    picture would have no points, the points on its border are repeated.
     """
     return moved(picture.astype(np.float32), -shift(to, picture))
 
@@ -64,8 +64,9 @@ def smooth(picture: Picture | Levels) -> Levels:
 
 
 def _disagreement(a: Levels, b: Levels, where: Points | None, u: int, v: int) -> float:
-    """Return the mean difference of two pictures, capped at each point, with the second picture shifted back by (u,
-    v). Only every second point is compared, because the pictures are smoothed. For `where` see `shift`.
+    """Shift the second picture back by (u, v), and return the mean difference of the two pictures. The difference is
+    capped at each point. Only every second point is compared, because the pictures are smoothed. For `where` see
+    `shift`.
     """
     rows, columns = a.shape
     here = a[MARGIN : rows - MARGIN : 2, MARGIN : columns - MARGIN : 2]

@@ -110,8 +110,8 @@ class Failure:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class GeneralLocation:
-    """Rough position of a part, to within an inch or two: its reference point (m in W). Only x and y are measured
-    in the picture; the rest is as planned.
+    """Rough position of a part, to within an inch or two: its reference point (m in W). Only x and y are measured in
+    the picture; all other values are as planned.
     """
 
     box: BoundingBox  # box around the part in the picture

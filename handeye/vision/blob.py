@@ -65,7 +65,7 @@ def localise(
     *,
     whole: bool = True,
 ) -> BoundingBox | None:
-    """Find a blob as `door.localise` does. The window stays set after the call.
+    """Find a blob as `door.localise` does. After the call, `scan` still has the window.
 
     If `whole` is False, a blob is also accepted if the window cuts it off or a shadow divides it in two.
     """
@@ -226,7 +226,7 @@ class _Side:
         return means
 
     def _end(self, line: int, middle: int, threshold: float) -> int:
-        """Find the last bright line, going straight outwards from a line that crosses the blob."""
+        """Go straight outwards from a line that crosses the blob, and return the last bright line."""
         far = len(self._image) - 1 - MARGIN
         for outwards, along, offset in self._window:
             if outwards < 0:

@@ -55,8 +55,9 @@ class CameraModel:
     """Position and geometry of the camera. Position, geometry and two potentiometer readings together determine the
     view of the camera.
 
-    The parameters (mount, two zero errors, roll, focal scale and offset of each lens) are those of the research on
-    this cell. Unlike a 3x4 collineation matrix, these parameters stay valid for other aims and lenses.
+    The parameters (mount, two zero errors, roll, focal scale and offset of each lens) are the parameters that the
+    researchers used for this cell. Unlike a 3x4 collineation matrix, these parameters stay valid for other aims and
+    lenses.
     """
 
     mount: tuple[float, float, float]  # crossing of pan and tilt axes in W, m

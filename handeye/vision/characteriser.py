@@ -168,8 +168,8 @@ def rims(
     wide: bool = False,
     beyond: float = 0.0,
 ) -> Array:
-    """Find border points around several centres, shape (n, 2). Returns shape (n, `rays`, 2). This is faster than
-    one centre at a time. `reach` and `inner` have shape (n,).
+    """Find border points around several centres, shape (n, 2). Returns shape (n, `rays`, 2). One call for all centres
+    is faster than a call for each centre. `reach` and `inner` have shape (n,).
     """
     spokes = _spokes(rays)
     starts = centres[:, None] + inner[:, None, None] * spokes

@@ -117,8 +117,8 @@ def characterise(
     None if a beam finds no edge.
 
     The method is for plain faces, because a beam ends at the first edge. The relief of a coin, or a highlight on a
-    sweet, ends a beam too early, so that the blob found is too small. `beyond` and `wide` help against this. A second
-    seed is a check: its result should agree with that of the first.
+    sweet, ends a beam too early, so that the blob found is too small. `beyond` and `wide` help against this error. To
+    check a result, try a second seed: both seeds should give the same result.
 
     Args:
         seed: a position (u, v) inside the blob, points.

@@ -73,7 +73,7 @@ def _sheet(shape: tuple[int, ...], view: View, part: Part, large: list[Array]) -
 
 def _screw_holes(part: Part, large: list[Array]) -> list[Array]:
     """Return the centres of the screw holes (in metres, shape (3,)). The positions and the scale of the screw holes
-    are computed from the large holes in the picture, because the scale of the camera may be off.
+    are computed from the large holes in the picture, because the scale of the camera may be wrong.
     """
     first, second = (complex(*place[:2]) for place in large)
     drawn, other = (complex(hole.x, hole.y) for hole in part.holes[:2])

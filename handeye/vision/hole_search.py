@@ -305,7 +305,9 @@ class HoleFinder:
 
 
 def _lines(box: BoundingBox, spacing: int) -> tuple[Array, Array, Array]:
-    """Return the starts, directions and lengths of beams that lie along rows and, half as dense, along columns."""
+    """Return the starts, directions and lengths of beams along rows and columns. The beams along columns are half as
+    dense as those along rows.
+    """
     left, top, right, bottom = box
     rows = np.array([[left, v] for v in range(top + spacing, bottom, spacing)]).reshape(-1, 2)
     columns = np.array([[u, top] for u in range(left + spacing, right, 2 * spacing)]).reshape(-1, 2)

@@ -32,7 +32,8 @@ def noise(picture: Picture) -> float:
     """Estimate the noise of a picture, as a standard deviation in intensity levels, from how far points deviate from
     the mean of their neighbours on the same picture line.
 
-    The median is used, because edges are few. Completely black and white points show no noise and do not count.
+    The estimate uses the median of the deviations, on which the few edges in a picture have little effect. Points that
+    are completely black or completely white show no noise and do not count.
     """
     levels = picture.astype(np.int16)
     counts = (levels > 0) & (levels < _WHITE)

@@ -1,9 +1,9 @@
 """Decides whether a part has the same place in a picture as in an earlier picture.
 
 Nothing is assumed about the appearance of the part: the earlier picture is the model. A vidicon displaces each picture
-slightly, so the part is compared with its surroundings. The shift of the part relative to its surroundings is measured
-in fractions of a point, and other differences appear as changed points. This comparison is our addition to the vision
-of 1973.
+slightly. Therefore the position of the part is compared with the position of its surroundings in the same picture. The
+shift of the part relative to its surroundings is measured in fractions of a point, and other differences appear as
+changed points. This comparison is our addition to the vision of 1973.
 """
 
 from typing import Final

@@ -48,7 +48,9 @@ BUILT_IN: Final = VisionFunctions()
 
 
 def with_functions(functions: Mapping[str, Callable[..., Any]]) -> VisionFunctions:
-    """Return the vision functions, with the given functions behind the instructions that `functions` names."""
+    """Return the vision functions. For each instruction that is a key of `functions`, the given function replaces
+    handeye's own function.
+    """
     return VisionFunctions(**{word.lower(): function for word, function in functions.items()})
 
 
@@ -94,7 +96,8 @@ def specific_by(name: str, function: Callable[..., Any]) -> Specific:
 
 def inspect_by(name: str, function: Callable[..., Any]) -> Inspect:
     """Wrap a function that returns True if a gasket is in place. The function takes the picture before the gasket was
-    laid, the picture after that, the view, the part under the gasket, and the pose x, y (m), yaw (rad) of this part.
+    laid, the picture after the gasket was laid, the view, the part under the gasket, and the pose x, y (m), yaw (rad)
+    of this part.
     """
 
     def inspected(before: Picture, after: Picture, view: View, part: Part, pose: Pose2D) -> GasketInspection:

@@ -31,8 +31,8 @@ def numbers(given: object, said: str) -> Array:
 
 
 def places(given: object, said: str) -> Array:
-    """Convert an argument to finite positions in or near the picture, points. Raises BadArgument if that is
-    impossible.
+    """Convert an argument to finite positions (in picture points) in or near the picture. Raises BadArgument if that
+    is impossible.
     """
     found = numbers(given, said)
     if (np.abs(found) > _FARTHEST).any():
@@ -187,8 +187,8 @@ class Scan:
         return np.asarray(places @ self.sides[:, :2].T + self.sides[:, 2])
 
     def levels(self, places: Places) -> NDArray[np.float32]:
-        """Return the intensities at places given by index in the picture. Places outside the picture are clipped to
-        it.
+        """Return the intensities at places, which are given by their indices in the picture. For a place outside the
+        picture, the nearest place in the picture is used.
         """
         return self.image.take(places, mode="clip")
 

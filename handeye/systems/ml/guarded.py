@@ -11,7 +11,7 @@ programs and compares them after every statement.
 3. In the cycle in which any flag comes on, every motor *freezes*: its goal becomes its present position.
 4. While any flag is on, every motion is *nullified*: it changes no goal and takes no time.
 5. A motion ends when all motors are at their goals, or when a flag comes on. Then the next statement is executed.
-6. BRANCH reads flags and clears none, so that several BRANCH statements in a row can ask what happened.
+6. BRANCH reads flags and clears none, so that several BRANCH statements in a row can test which flags are on.
 """
 
 from collections.abc import Callable, Mapping
@@ -30,7 +30,7 @@ FINE: Final = 100  # set-points are counted in hundredths of a unit, because 20 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Sensor:
     """`SENSOR`: set or open the limits of one sensor, or open the limits of all sensors. Clear the flags of these
-    sensors. A sensor whose limits are open may read anything.
+    sensors. If the limits of a sensor are open, every reading is in range.
     """
 
     sensor: int | None = None  # None: all
@@ -39,8 +39,8 @@ class Sensor:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Motion:
-    """`MOVE` and `MOTOR`; if `relative` is True, `DMOVE` and `DMOTOR`, whose numbers are distances from the present
-    goals.
+    """A motion. If `relative` is False, this is a `MOVE` or a `MOTOR`. If `relative` is True, this is a `DMOVE` or a
+    `DMOTOR`, and the numbers are distances from the present goals.
     """
 
     by_motor: Mapping[int, int]
@@ -56,7 +56,9 @@ class Delay:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Branch:
-    """`BRANCH`: go to `then` if the flag of any listed sensor is on; a negative number asks whether the flag is off."""
+    """`BRANCH`: go to `then` if the flag of any listed sensor is on. If a sensor is listed with a negative number, go
+    to `then` if its flag is off.
+    """
 
     then: int
     other: int | None = None  # None: the branch always goes to `then`

@@ -7,8 +7,8 @@ Sensors 2 to 4 read the force on the hand along X, Y and Z (up) in grams, and se
 fingers. A cycle takes a servo period of the arm, 1/60 s, instead of 10 ms.
 
 A remark `* NAME IS &n` puts the height NAME of the record into the variable n, as a position of motor 2. A remark `*
-&n IS NAME` hands the variable n over as the height NAME. A program has ended well only if it printed 0 last, because
-ML has no word with which a program can report a failure.
+&n IS NAME` hands the variable n over as the height NAME. ML has no word with which a program can report a failure.
+Therefore, a program has succeeded only if the last line that it printed is 0.
 """
 
 import re
@@ -124,7 +124,7 @@ class SlideAxes(Axes):
         return self.tool.period
 
     def power(self, on: bool) -> None:
-        """Switch nothing: the servo of the arm runs in the computer, and ends when the brakes are set."""
+        """Do nothing: the servo of the arm is a program in the computer, which ends when the brakes are set."""
 
     def put(self, goal: Array) -> None:
         z, y, x, self.roll, gap = map(float, goal)
@@ -215,7 +215,7 @@ class MlLeg(ToolLeg, RunningMl):
         return {}
 
     def _watch(self) -> None:
-        """The drive reports every servo period."""
+        """Do nothing: the drive of the arm already reports every servo period."""
 
     def _tell(self, event: SystemEvent) -> None:
         if isinstance(event, Printed):
@@ -247,7 +247,9 @@ class MlLeg(ToolLeg, RunningMl):
         self.tool.rest()
 
     def _turn_down(self, *, held: bool) -> None:
-        """Turn the hand straight down, where it is. The slides begin where they are."""
+        """Turn the hand straight down at its present place. The slides begin at the positions that belong to this
+        place.
+        """
         axes, here = self.tool.axes, self.tool.axes.read().q
         self._slides.roll = (here[3] - _DOWN[0] + pi) % (2 * pi) - pi if abs(here[4] - pi / 2) < 0.5 else 0.0
         goal = np.array([*here[:3], _DOWN[0] + self._slides.roll, *_DOWN[1:], -0.02 if held else here[6]])

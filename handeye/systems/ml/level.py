@@ -61,7 +61,7 @@ class Level(ABC):
 
     @abstractmethod
     def remember(self, memory: MutableRecord) -> None:
-        """Continue from a copy of a state. Raises InvalidInput if the state does not fit."""
+        """Continue from a copy of a state. Raises InvalidInput if the state does not fit this level."""
 
     # -- tables ---------------------------------------------------------------------------------------
 
@@ -97,8 +97,8 @@ class Level(ABC):
 
     @abstractmethod
     def open(self, sensor: int | None = None) -> None:
-        """Open the limits of a sensor, which may then read anything, and clear its flag. If no number is given, do
-        this for all sensors. Raises MlError (M11).
+        """Open the limits of a sensor, so that every reading is within the limits, and clear the sensor's flag. If no
+        number is given, open the limits and clear the flags of all sensors. Raises MlError (M11).
         """
 
     @abstractmethod

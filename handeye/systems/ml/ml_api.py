@@ -43,10 +43,11 @@ class Ml:
             text: a program to be stored.
             outline: corners of an object that the wand can touch, each as (y, x) in .001 inch.
             stimuli: values that sensors have at certain times or while a motor is at certain positions.
-            senses: the same, written as for `handeye ml run --sense`: with `5=500@3:2750`, sensor 5 reads 500 while
-                motor 3 is at 2750 or farther from 0.
-            procedures: a dictionary from the names of commands, `UPROCA` to `UPROCD`, to the functions that they call.
-                Each function is called with this terminal's interpreter and the values of the statement's parameters.
+            senses: such values as texts, in the form of `handeye ml run --sense`: with `5=500@3:2750`, sensor 5 reads
+                500 while motor 3 is at 2750 or farther from 0.
+            procedures: a dictionary from the names of commands, `UPROCA` to `UPROCD`, to the functions that these
+                commands call. Each function is called with this terminal's interpreter and the values of the
+                statement's parameters.
         """
         self.events: list[SystemEvent] = []
         sensing = (*stimuli, *map(sensed, senses))
@@ -141,8 +142,8 @@ class Ml:
     def touch(
         period: int = 10, bandwidth: float = 50.0, speed: float = 25.0, limit: int = 300, phase: float = 0.0
     ) -> "Touch":
-        """Simulate, with physics, how the hand of the rectilinear arm descends on a block, guarded by a strain gauge in
-        a finger.
+        """Simulate, with physics, how the hand of the rectilinear arm descends on a block. A strain gauge in a finger
+        guards the motion.
 
         >>> touch = handeye.Ml.touch(speed=50)
         >>> touch.noticed, touch.way, touch.force
@@ -153,8 +154,8 @@ class Ml:
             bandwidth: bandwidth of the slide's servo (Hz).
             speed: speed of the slide (mm/s).
             limit: limit of the strain gauge (grams).
-            phase: when in the period the contact occurs. 0 is just after a reading; a value near 1 is just before the
-                next.
+            phase: moment of the contact within the period. 0 is just after a reading; a value near 1 is just before
+                the next reading.
 
         Returns: when the limit was noticed (`noticed`, ms after the contact), how far the slide moved after the
             contact (`way`, mm), the greatest force of both fingers (`force`, N), the force on a finger at the start of

@@ -76,8 +76,8 @@ def misfits(plan: RelayPlan) -> Iterator[LegFinding]:
 
 
 def inexpressible(plan: RelayPlan) -> Iterator[LegFinding]:
-    """Yield the lines of the task's own program whose operations the language of the leg cannot express. Stages are
-    compared by name.
+    """Yield lines of the task's own program, for each leg: the lines in the stage of the leg whose operations the
+    language of the leg cannot express. Stages are compared by name.
     """
     program, file = own_program(plan.task)
     for leg in legs(plan):

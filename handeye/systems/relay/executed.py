@@ -55,7 +55,9 @@ def executed(plan: RelayPlan, state: RelayCore) -> list[LegStep]:
 
 
 def own_legs(plan: RelayPlan, state: RelayCore) -> tuple[Leg, ...]:
-    """Return the leg that has the arm, after the legs of the same program that directly precede it."""
+    """Return the leg that has the arm, and the legs of its program that directly precede this leg. The leg that has
+    the arm comes last.
+    """
     all_legs, here = legs(plan), last_leg(state)
     first = here
     while first and all_legs[first - 1].file == all_legs[here].file:
@@ -79,8 +81,9 @@ def check_order(plan: RelayPlan, state: RelayCore, undoing: ReversalOrder) -> No
 
 
 def own_order(plan: RelayPlan, state: RelayCore, undoing: ReversalOrder) -> ReversalOrder | None:
-    """Reduce an order to undo steps: keep only the steps that the program that has the arm has executed since it took
-    the arm over. The returned order has this program's own step numbers. Returns None if there are no such steps.
+    """Reduce an order to undo steps to the steps of the present program, which has the arm. Keep only the steps since
+    this program took the arm over. The returned order has this program's own step numbers. Returns None if there are
+    no such steps.
     """
     own, done = own_legs(plan, state), executed(plan, state)
     before = sum(each.step < own[0].first for each in done)

@@ -208,7 +208,7 @@ class RunningRelay(RunningSystem):
             self._leave()
 
     def _mirror(self, *, undoing: bool = False) -> None:
-        """Let the state of the relay follow the state of the program that has the arm."""
+        """Update the state of the relay from the state of the program that has the arm."""
         state, own = self._state, self._running.state
         if undoing:
             place = own.at if own.at is not None else own.onward
@@ -333,7 +333,7 @@ class RunningRelay(RunningSystem):
 
     def _go_back(self) -> None:
         """Let the program that has the arm undo its steps. If that program has no steps to undo, give the arm back to
-        earlier programs until one has such steps.
+        the program before it, until a program has steps to undo.
         """
         assert self._state.undoing is not None
         while (order := own_order(self._plan, self._state, self._state.undoing)) is None:

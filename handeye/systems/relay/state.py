@@ -30,7 +30,8 @@ class RelayCore(SystemState, kw_only=True):
 
 def state_type() -> type[RelayCore]:
     """Return the type of the state of a relay. The state has a field for each system that can do legs. The field has
-    the name of the system, and holds the states of the system's programs, by their files.
+    the name of the system. Its value is a dictionary from the files of the system's programs to the states of these
+    programs.
     """
     fields: list[Any] = [
         (entry.name, dict[str, leg_system(entry.name).state], field(default_factory=dict))  # type: ignore[misc]

@@ -124,7 +124,7 @@ def details(rows: Sequence[Row]) -> tuple[Details, ...]:
 
 def margin_details(rows: Sequence[Row]) -> Details:
     """Return the table of margins to the referee's limits. The finding with the smallest margin, in standard
-    deviations, comes first, because it is the most likely to fail.
+    deviations, comes first, because this finding is the most likely to fail.
     """
     return Details(
         name="margins", title="Margins to the referee’s limits, the smallest first", rows=margins(rows),

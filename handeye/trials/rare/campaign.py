@@ -132,8 +132,8 @@ class Campaign:
         return rows
 
     def world(self, condition: str, point: Point) -> WorldSpec:
-        """Return the world of a point. At level 0, the world of a point is the world of a seed, as every command makes
-        it.
+        """Return the world of a point. At level 0, the world of a point is the world of a seed, the same world that
+        every other command makes from this seed.
         """
         if condition == FIRST:
             return replace(self.trial.world, seed=point.noise)
@@ -178,7 +178,7 @@ def _check(row: RareRow, case: RareCase) -> None:
 
 
 class _Measured:
-    """Runs the points of a level, and measures the margins of the runs from one kind of failure."""
+    """Runs the worlds of a level's points, and measures how far each run was from one kind of failure."""
 
     def __init__(self, campaign: Campaign, kind: FailureKind, known: Usual) -> None:
         self._campaign, self._kind, self._usual = campaign, kind, known

@@ -1,11 +1,11 @@
-"""Of the worlds in which a program fails, finds the worlds nearest to the middle of all quantities. Also finds what
-pushes the program to fail.
+"""Of the worlds in which a program fails, finds the worlds nearest to the middle of all quantities. Also finds the
+quantities that make the program fail.
 
-A world in which the program fails differs from the middle in every quantity, although only a few quantities matter. So
-the quantities of a failing world return to the middle of their ranges, first in groups, then one by one, as long as
-the program still fails. This is delta debugging (A. Zeller and R. Hildebrandt, Simplifying and isolating
-failure-inducing input, IEEE Transactions on Software Engineering 28 (2002) 183-200). Then all remaining deviations
-become smaller together. The noise stays the same.
+A world in which the program fails differs from the middle in every quantity, although only a few quantities matter.
+Therefore the search sets the quantities of a failing world back to the middle of their ranges, first in groups, then
+one by one, as long as the program still fails. This is delta debugging (A. Zeller and R. Hildebrandt, Simplifying and
+isolating failure-inducing input, IEEE Transactions on Software Engineering 28 (2002) 183-200). Then the search reduces
+all remaining deviations together. The noise stays the same.
 """
 
 from collections import deque
@@ -38,7 +38,9 @@ class NearWorld(Record, frozen=True, kw_only=True):
 
 
 class Push(Record, frozen=True, kw_only=True):
-    """How far, in standard deviations, one quantity pushes the program towards a failure."""
+    """The mean deviations of one quantity in failing worlds, in standard deviations. They show how the quantity pushes
+    the program to fail.
+    """
 
     quantity: str
     worlds: int  # how many of the nearest worlds need it
@@ -102,8 +104,8 @@ def simplified(numbers: Array, groups: Sequence[Sequence[int]], tries: int) -> G
 
 
 def pushes(campaign: Campaign, kind: FailureKind, found: Sequence[NearWorld]) -> list[Push]:
-    """Return how the quantities push the program to fail, sorted by the number of the nearest worlds in which each
-    quantity must deviate, the greatest number first.
+    """Return, for each quantity, how it pushes the program to fail. The quantity that must deviate in most of the
+    nearest worlds comes first.
     """
     mine = [each for each in campaign.failing if each.kind == kind]
     if not mine:

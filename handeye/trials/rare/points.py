@@ -43,8 +43,8 @@ class WorldSpace:
         return Point(np.array([*found], dtype=float), seed)
 
     def world(self, point: Point) -> WorldSpec:
-        """Return the world of a point. Errors can be scaled to four times their size; a value that is then beyond a
-        limit of its quantity is set to the limit.
+        """Return the world of a point. Errors can be scaled to four times their size. If a scaled value is beyond a
+        limit of its quantity, the value is set to the limit.
         """
         values = {
             name: self._value(each, float(number))
@@ -67,7 +67,9 @@ class WorldSpace:
         return float(np.linalg.norm(self.deviations(numbers)))
 
     def groups(self) -> list[list[int]]:
-        """Return the numbers of the quantities by the first part of their names, the largest group first."""
+        """Return groups of quantities whose names have the same first part, the largest group first. The quantities
+        are given by their numbers.
+        """
         found: dict[str, list[int]] = {}
         for number, name in enumerate(self.names):
             found.setdefault(name.split(".")[0], []).append(number)

@@ -79,5 +79,5 @@ def pushes_table(found: Sequence[Push]) -> PlainTable:
 
 
 def no_worlds(failure: str) -> str:
-    """Say that no world was found in which the program fails in this way."""
+    """Say that the search found no world with this kind of failure."""
     return f"{failure}: no world was found in which the program {_ENDS[failure]}"

@@ -198,7 +198,7 @@ def poured(spec: mujoco.MjSpec, world: ArmWorld, parts: int, place: Place = ORIG
 
 
 def settled(bench: Bench) -> mujoco.MjModel:
-    """Return the scene of a bench with its parts where they come to rest, for pictures."""
+    """Simulate until the parts on a bench are at rest. Return the scene in this state, for pictures."""
     import mujoco
 
     mujoco.mj_step(bench.model, bench.data, _SETTLING)

@@ -1,1 +1,1 @@
-"""The job `blocks`: three toy blocks are taken from the table and stacked, by touch."""
+"""The job `blocks`: the arm takes three toy blocks from the table and stacks them. It finds them by touch."""

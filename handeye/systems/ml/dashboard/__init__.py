@@ -1,1 +1,1 @@
-"""The tables of a machine by cycle: recorded, shown as text, and shown in pages."""
+"""Records the tables of a machine in each cycle, and shows them as text and in pages."""

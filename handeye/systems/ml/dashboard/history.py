@@ -65,8 +65,8 @@ class History:
 
     @property
     def last(self) -> int:
-        """The number of the cycle that comes next. Changes that statements have made since the previous cycle belong to
-        this cycle.
+        """The number of the cycle that comes next. The changes that statements have made since the previous cycle
+        belong to this next cycle.
         """
         return self.head.cycles
 

@@ -16,7 +16,9 @@ _Y = 3  # the motor whose position is drawn at first
 
 
 class LiveTables(LiveNews):
-    """All changes since the beginning of the run, for pages that have seen only some of them."""
+    """All changes of the tables since the beginning of the run. A page that has shown only some of the changes asks
+    for the missing ones.
+    """
 
     def __init__(self, head: Head, machine: Machine, recorder: TapeRecorder) -> None:
         self._machine, self._recorder = machine, recorder

@@ -149,8 +149,8 @@ def _within(number: int, most: int, what: str) -> int:
 
 
 def columns(rows: Sequence[Sequence[str]], *, words: int, last: bool = False) -> Iterator[str]:
-    """Align rows in columns. `words` is the number of columns of text, which come first; if `last` is True, the last
-    column is also a text. All other columns are numbers, which are aligned to the right.
+    """Align rows in columns. The first `words` columns contain text. If `last` is True, the last column contains text,
+    too. All other columns contain numbers, which are aligned to the right.
     """
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     for row in rows:

@@ -1,5 +1,5 @@
-"""Detects from touches and turns that a follower, a program that follows an outline, has closed its circuit or is lost.
-The program of the paper detects neither, and runs on for ever.
+"""Detects whether a follower has closed its circuit or is lost. A follower is a program that follows an outline. Its
+touches and turns show its course. The program of the paper does not detect either case, and never ends.
 
 When a circuit is closed, left turns outnumber right turns by four. If a follower misses its wall, it turns left four
 times without a touch. The follower has then gone around a square with sides of one step, and is back where it was. The

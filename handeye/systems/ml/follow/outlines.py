@@ -17,7 +17,7 @@ _ROUND: Final = 180  # corners of the polygon that stands for a circle
 
 
 class Rectangle(NamedTuple):
-    """A rectangle in the plane of the slides x and y, in units."""
+    """A rectangle in the plane of the slides x and y, in units of these slides."""
 
     left: float
     right: float
@@ -103,8 +103,9 @@ def lay(
 
 
 def placed(points: Array, R: Array, centre: Array) -> Array:
-    """Convert points of a plate, shape (n, 2), to where they lie on the table, in units of the slides. The plate has
-    the true rotation `R`, shape (3, 3), and the plate's middle is at `centre` (m, shape (3,)) in the scene.
+    """Return the places on the table, in units of the slides, at which the points `points` of a plate lie, shape (n,
+    2). The plate has the true rotation `R`, shape (3, 3), and the plate's middle is at `centre` (m, shape (3,)) in the
+    scene.
     """
     flat = np.array([[1.0, 0.0], [0.0, -1.0]])  # from coordinates of the slides to those of the scene
     lying = points * LINEAR @ flat @ R[:2, :2].T + centre[:2] - [CENTRE, 0.0]

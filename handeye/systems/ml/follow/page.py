@@ -37,7 +37,7 @@ _FAR: Final = 200.0  # units: distance of the points from which the direction aw
 
 
 class FollowReport(Record, frozen=True, kw_only=True):
-    """What a follower has felt, and the truth."""
+    """The touches that a follower has felt, and the true outline of the plate."""
 
     outline: OutlineName
     world: str

@@ -73,14 +73,14 @@ VARIATION: Final = Variation(
 
 
 class Laid(Record, frozen=True, kw_only=True):
-    """The plate before the program begins."""
+    """The true place of the plate before the program began."""
 
     outline: OutlineName
     corners: tuple[tuple[float, float], ...]  # x, y of its true outline, in units of the slides
 
 
 class Plate(Mechanism[Laid]):
-    """Remembers where the plate lay before the program began. Only the referee sees this."""
+    """Remembers the true place of the plate before the program began. Only the referee knows this place."""
 
     name, kind = LAID, Laid
 
@@ -175,7 +175,7 @@ class Follow(ArmTask):
         return FAULTS
 
     def station(self, outline: OutlineName, world: ArmWorld) -> tuple[Station, Tracker, Plate]:
-        """Return the station with a plate, and the wand beside it."""
+        """Return the station with a plate. The wand begins beside the plate."""
         spec, shape = scene(world), OUTLINES[outline]
         off = world.normal("plate.x", _PLACE) + (world.fault(MOVED) or 0.0), world.normal("plate.y", _PLACE)
         friction = world.fault(SLIPPERY) or world.value(_FRICTION)

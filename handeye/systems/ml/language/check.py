@@ -1,5 +1,6 @@
-"""Checks a program: sequence numbers, jumps, points, motors, sensors, tables and loops, and how it uses its
-sensors."""
+"""Checks the sequence numbers, jumps, points, motors, sensors, tables and loops of a program. Also checks how the
+program uses its sensors.
+"""
 
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Final
@@ -27,7 +28,8 @@ _AT_POINTS: Final = {"DEFPOINT": 1, "GOPOINT": 1, "JOY": 1, "GOLINE": 2, "GOMEAN
 def checked(
     source: Source, *, first: int | None = None, left: int | None = None
 ) -> tuple[dict[int, Line], list[Diagnostic]]:
-    """Return the stored lines of a program by their numbers, in ascending order, and the mistakes.
+    """Return two values: the stored lines of a program and the mistakes. The keys of the lines are their sequence
+    numbers, in ascending order.
 
     Args:
         first: the statement at which the program begins. If this is None, the program begins at the statement with the
@@ -62,7 +64,7 @@ def checked(
 
 
 class _Check:
-    """Checks single lines of a program, knowing the whole program."""
+    """Checks the lines of a program one by one. A check may use the other lines of the program, too."""
 
     def __init__(self, lines: Mapping[int, Line], starts: list[tuple[int, Side]]) -> None:
         self._lines = lines

@@ -1,5 +1,5 @@
-"""The table of the 106 commands of ML: 76 commands, and the names of 30 tables. The parser, the checks, the completion,
-`explain` and the page of commands are derived from this table.
+"""The table of the 106 command words of ML: 76 words name commands, and 30 words name tables. The parser, the checks,
+the completion, `explain` and the page of commands are derived from this table.
 """
 
 import re
@@ -37,7 +37,7 @@ class Command(Record, frozen=True, kw_only=True):
 
     @property
     def counts(self) -> frozenset[int]:
-        """The numbers of parameters that are allowed."""
+        """How many parameters the command may have: all allowed numbers."""
         return _counts(self.usage)
 
     def kind(self, number: int) -> Kind:

@@ -26,7 +26,8 @@ class MlLanguage(OwnLanguage):
 
     def explanation(self, word: str) -> str | None:
         """Return the meaning of a code or of a command, or None if ML has no such code or command. If the arm language
-        has a word with the name of the command, `handeye ml words` explains the command.
+        also has the word, `handeye explain` explains the word of the arm language; `handeye ml words` explains the
+        command of ML.
         """
         return code_explained(word) or explained(word)
 

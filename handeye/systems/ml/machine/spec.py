@@ -62,7 +62,7 @@ class ArmSpec:
 
 
 def analog(point: int) -> SensorLine:
-    """Return the line of an analog sensor. The sensor reads the counts of its input without a scale."""
+    """Return the line of an analog sensor. The sensor's reading is the count of its input, without a scale factor."""
     return SensorLine(input=point)
 
 

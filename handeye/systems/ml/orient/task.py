@@ -169,7 +169,8 @@ def _matrix(quat: Array) -> Array:
 
 
 def add_stop(spec: mujoco.MjSpec, world: ArmWorld, place: tuple[int, int], moved: float = 0.0) -> None:
-    """Add the stop, an upright pin, at a place of the slides, with its error in the world.
+    """Add the stop, an upright pin, at a place of the slides. The stop is displaced from this place by its error in
+    the world.
 
     Args:
         moved: how far the stop is displaced along y (m).

@@ -1,1 +1,1 @@
-"""The real-time level, which samples, checks and moves everything every ten milliseconds."""
+"""The real-time level. Every ten milliseconds, it samples and checks all sensors, and sets the goals of all motors."""

@@ -142,7 +142,9 @@ class RealTime(Cycles, Level):
             raise MlError("M10", f"motor {motor} can go from {lower} to {upper}, not to {goal}")
 
     def _set_paces(self) -> None:
-        """If the table AR asks for it, let the motors arrive together. If not, let each motor go as fast as it can."""
+        """Set the speeds of the motors. If the table AR requires it, the motors arrive at their goals together. If
+        not, each motor moves as fast as it can.
+        """
         memory = self._memory
         memory.pace[:] = [0] * len(memory.pace)
         if not memory.AR[0].coordinate:

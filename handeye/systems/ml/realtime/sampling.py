@@ -18,7 +18,7 @@ _BITS: Final = 0xFFFF
 
 
 class ProgramCheck(Exception):
-    """Raised when a table asks for a division by zero."""
+    """Raised when the values in a table would cause a division by zero."""
 
 
 def saturated(value: float) -> int:
@@ -58,7 +58,7 @@ def sensed(line: SensorLine, analog: Sequence[int], digital: Sequence[int]) -> i
 
 
 def outside(reading: int, lower: int, upper: int, open_bits: int) -> bool:
-    """Return True unless a reading is strictly between two limits. A limit that is open is not compared."""
+    """Return True unless a reading is strictly between two limits. An open limit is ignored."""
     return not (open_bits & LOWER_OPEN or lower < reading) or not (open_bits & UPPER_OPEN or reading < upper)
 
 

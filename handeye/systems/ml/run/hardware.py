@@ -1,4 +1,4 @@
-"""What a run drives: either perfect motors, or a station with a job."""
+"""The hardware that a run moves: either perfect motors, or a station with a job."""
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping, Sequence
@@ -31,7 +31,9 @@ class Ending(NamedTuple):
 
 
 class Hardware(ABC):
-    """The machine of a run. It provides what the run shows of the machine, and informs the job about the run."""
+    """The machine of a run. The run asks the machine for the state that the run shows. The machine passes printed
+    lines and executed statements to its job.
+    """
 
     machine: Machine
     joints: Sequence[str] = ()
@@ -60,7 +62,9 @@ class Hardware(ABC):
 
     @abstractmethod
     def signal(self, interlock: str, *, on: bool) -> None:
-        """Switch the signal of an interlock, as a person or a device of the room does. Raises NoSuchName."""
+        """Switch the signal of an interlock, which a person or a device would switch in a real room. Raises NoSuchName
+        if the hardware has no such interlock.
+        """
 
     def hear(self, text: str) -> None:  # noqa: B027 - few jobs listen
         """Called with each line that the program prints."""

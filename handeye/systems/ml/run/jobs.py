@@ -39,8 +39,8 @@ def job_plan(job: str, variant: str = "") -> MlPlan:
 
 
 def program_plan(task: str, name: str, text: str, variant: str = "") -> MlPlan:
-    """Return the plan with which a user's program does a variant of a job. The default is the usual variant. Raises
-    BadFile if the program has errors.
+    """Return the plan of a run in which a user's program does a variant of a job. By default, the program does the
+    usual variant. Raises BadFile if the program has errors.
     """
     plan = MlPlan(name=name, text=text, arm="rectilinear", job=task, variant=variant or USUAL.get(task, ""))
     sound(plan)

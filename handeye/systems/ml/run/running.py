@@ -199,7 +199,7 @@ class RunningMl(NumberedRun):
         return min(standing, key=lambda each: bool(each.memory.waits), default=None)
 
     def _stand(self) -> None:
-        """Record where each arm is in the program."""
+        """Record the place of each arm's program: its next statement."""
         state, turn = self._state, self._next
         at = {side: each.memory.at for side, each in self.interpreters.items() if each.memory.at}
         several = len(self.interpreters) > 1
@@ -256,7 +256,9 @@ class RunningMl(NumberedRun):
             self._around.emit(event)
 
     def type_line(self, text: str, task: str) -> None:
-        """Execute a line that is typed at the terminal between two statements, or store it."""
+        """Execute a line that is typed at the terminal between two statements. If the line has a sequence number,
+        store it instead.
+        """
         side = task or "right"
         if side not in self.interpreters:
             raise Refused(f"there is no {side} arm")

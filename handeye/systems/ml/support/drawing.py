@@ -138,13 +138,13 @@ def mm(x: float, y: float) -> Place:
 
 
 def row(places: tuple[tuple[int, int], tuple[int, int]], number: int) -> tuple[int, int]:
-    """Return a place in a row of places at equal distances."""
+    """Return one of the places in a row. All neighbours in the row have the same distance."""
     (x, y), (dx, dy) = places
     return x + number * dx, y + number * dy
 
 
 class Drawing:
-    """The parts of a world, with their errors."""
+    """The parts, fixtures and screws of a world, with the errors that the world gives them."""
 
     def __init__(self, world: ArmWorld) -> None:
         self._world = world

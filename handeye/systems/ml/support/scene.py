@@ -110,7 +110,9 @@ def add_ridge(
     shaper: Shaper, body: mujoco.MjsBody, mesh: str, style: str, at: Place, size: tuple[float, ...], lead: float,
     low: float, *, across: bool = False,
 ) -> None:  # fmt: skip
-    """Add a bar along x or, if `across`, along y. The long upper edges of the bar are beveled by `lead` (mm)."""
+    """Add a bar along x. If `across` is True, add it along y instead. The long upper edges of the bar are beveled by
+    `lead` (mm).
+    """
     long, wide, high = (each * MM for each in size)
     if shaper.spec.mesh(mesh) is None:
         profile = [(wide / 2, 0), (wide / 2, high - lead * MM), (wide / 2 - lead * MM, high)]

@@ -1,6 +1,6 @@
-"""The lines of the tables whose words have names. The fields of a line are its words, in the order of the table. Lines
-that change in every cycle are mutable. Any other line is never changed in place but replaced, so that saved states can
-share it.
+"""The lines of some tables: those in which each word of a line has a name. The fields of a line are its words, in the
+order of the table. Lines that change in every cycle are mutable. All other lines are immutable: a new line replaces
+the old line. Saved states can therefore share these lines.
 """
 
 from typing import Annotated, Final
@@ -135,7 +135,7 @@ class ArmLine(MutableRecord):
 
 
 class InterlockLine(Record, frozen=True):
-    """A line of SF: a bit of a process-interrupt word that stops the arm."""
+    """A line of SF: an interlock, which can stop the arm. The interlock is one bit of a process-interrupt word."""
 
     word: Word = 1  # word of the table PI
     mask: Word = 0

@@ -62,7 +62,9 @@ def _lines(kind: type[MutableRecord | Record], count: int) -> Any:
 
 
 class SharedMemory(MutableRecord, kw_only=True):
-    """The tables that both arms have in common. A list has the words of a table, one line after the other."""
+    """The tables that both arms have in common. A field that is a list has the words of its table, one line after the
+    other.
+    """
 
     TM: list[Word] = _zeros(TIMERS)
     JY: list[Word] = _zeros(MOTORS * 2)
@@ -75,7 +77,7 @@ class SharedMemory(MutableRecord, kw_only=True):
 
 
 class ArmMemory(MutableRecord, kw_only=True):
-    """The complete state of the real-time level of an arm: its tables, and what no table shows."""
+    """The complete state of the real-time level of an arm: its tables, and further values that are in no table."""
 
     now: Annotated[int, msgspec.Meta(ge=0, le=10**12)] = 0  # cycles since the beginning
     MT: list[MotorLine] = _lines(MotorLine, MOTORS)
@@ -101,7 +103,7 @@ class ArmMemory(MutableRecord, kw_only=True):
 
 
 def word_of(name: str) -> int:
-    """Return the name of a table as a word, which holds two characters."""
+    """Return the name of a table as a word. A table's name has two characters, which fit into one word."""
     return ord(name[0]) << 8 | ord(name[1])
 
 

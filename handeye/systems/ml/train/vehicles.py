@@ -73,7 +73,9 @@ def add_vehicle(
 
 
 def _wedge(number: int, radius: float, high: float) -> Array:
-    """Return the corners of a sector of a ring with a chamfered hole. The upper side of the ring is at z = 0."""
+    """Return the corners of one sector of a ring. The hole of the ring is chamfered, and the upper side of the ring is
+    at z = 0.
+    """
     turns = 2 * np.pi * np.array([number, number + 1]) / _PARTS
     flat = np.cos(np.pi / _PARTS)  # so that the sides of the hole touch its circle
     profile = (

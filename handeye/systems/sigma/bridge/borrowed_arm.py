@@ -1,8 +1,8 @@
 """The Stanford arm in place of arm 1: the axes X1, Y1 and Z1 drive coordinates of its tool, and there is no bus.
 
 The central computer gives the same commands that it gives to the motors of SUPERSIGMA. The commands are not sent as
-bytes. In each servo period of 1/60 s, they set a new goal of the tool (`execution/tool_axes.py`). Commands, places and
-times are handled as for perfect motors, except that each motion takes as long as this arm needs.
+bytes; instead, they set a new goal of the tool in each servo period of 1/60 s (`execution/tool_axes.py`). Commands,
+places and times are handled as for perfect motors, except that each motion takes as long as this arm needs.
 """
 
 import math
@@ -51,8 +51,8 @@ class BorrowedArm(PerfectMotors):
     """Moves the tool of an arm as the motors of arm 1 would move its hand.
 
     There is no reflex at the standard limit, because this arm feels several newtons even in free motion. After LIMIT
-    has set a force for an axis, a motion of this axis stops within a servo period after the force is exceeded, not
-    within a millisecond.
+    has set a force for an axis, a motion of this axis stops within a servo period after the force is exceeded. The
+    motors of SUPERSIGMA stop within a millisecond.
     """
 
     def __init__(self, drive: ArmDrive, at: tuple[float, float] = AT) -> None:

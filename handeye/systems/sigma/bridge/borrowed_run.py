@@ -39,7 +39,7 @@ class BorrowedRun(Record, frozen=True, kw_only=True):
 
 
 def check_program(lines: Sequence[Line]) -> None:
-    """Raise BadFile for the first line that needs what the borrowed arm lacks."""
+    """Raise BadFile for the first line that needs a device, an axis or a sensor which the borrowed arm lacks."""
     for line in lines:
         why = next(_lacks(line), None)
         if why is not None:
@@ -47,7 +47,7 @@ def check_program(lines: Sequence[Line]) -> None:
 
 
 def _lacks(line: Line) -> Iterator[str]:
-    """Yield what a line needs that the borrowed arm lacks."""
+    """Yield the devices, axes and sensors that a line needs and that the borrowed arm lacks."""
     for statement in within(line.statement):
         names = [*(name.text for name in statement.names), *(goal.axis.text for goal in statement.goals)]
         for name in names:

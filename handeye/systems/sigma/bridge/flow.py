@@ -16,7 +16,9 @@ END: Final = None  # stands for the number of a line: the program ends
 
 @dataclass(frozen=True, slots=True)
 class Unknown:
-    """A value that depends on the way by which the program reaches a line, or on a force."""
+    """A value that the text of the program does not determine: it depends on the path on which the program reaches a
+    line, or on a force.
+    """
 
 
 UNKNOWN: Final = Unknown()
@@ -35,7 +37,7 @@ class Before:
     """The line to which an abort leads; None if the program stops."""
 
     def met(self, other: "Before") -> "Before":
-        """Return what holds before a line that can be reached in both of these states."""
+        """Return what holds before a line if the program can reach the line in this state and in the state `other`."""
 
         def same(one: Mapping[str, object], two: Mapping[str, object]) -> dict[str, object]:
             return {name: value if value == two[name] else UNKNOWN for name, value in one.items()}

@@ -1,11 +1,12 @@
 """Translates a MAL program of a single task into the program that the planner plans. Every line that cannot become a
 motion is refused.
 
-The axes of one arm become table axes: the board of SUPERSIGMA lies on the table of the arm that takes its place. A
-MOVE of one axis becomes a straight motion, and so does a MOVE with LINE. Any other MOVE of several axes becomes a
-motion whose path is free. A LIMIT becomes a guard of the motions of its axis. A test of FORCE right after a motion
-becomes a guard of this motion: the motion stops at this force, and the program no longer tests the force afterwards.
-Without a LIMIT there is no guard, because an arm that is not balanced feels several newtons even in free motion.
+The axes of one arm become table axes: another arm replaces the arm of SUPERSIGMA, and the board of SUPERSIGMA lies on
+the table of this other arm. A MOVE of one axis becomes a straight motion, and so does a MOVE with LINE. Any other MOVE
+of several axes becomes a motion whose path is free. A LIMIT becomes a guard of the motions of its axis. A test of
+FORCE right after a motion becomes a guard of this motion: the motion stops at this force, and the program no longer
+tests the force afterwards. Without a LIMIT there is no guard, because an arm that is not balanced feels several
+newtons even in free motion.
 """
 
 from collections.abc import Iterator, Sequence
@@ -74,7 +75,7 @@ _CURE: Final = (
 
 
 class _Stop(NamedTuple):
-    """Where a step leads: to a line, or forward by a number of steps. `here` is this number."""
+    """Where a step leads: either to a line, or to a later step, which is `here` steps further on."""
 
     line: int | None = None
     here: int | None = None
@@ -162,7 +163,7 @@ def _device(statement: Statement) -> str:
 
 
 def _arms(lines: Sequence[Line]) -> Iterator[Diagnostic]:
-    """Yield the first line that uses a different arm from the lines before it."""
+    """Yield the first line that does not use the arm of the lines before it, but another arm."""
     first: tuple[int, Line] | None = None
     for line in lines:
         for arm in sorted(_arms_of(line.statement)):

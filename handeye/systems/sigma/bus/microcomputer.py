@@ -105,8 +105,8 @@ class Microcomputer:
         """Look for a strobe if the microcomputer is free to take a command. Returns the commands for other
         microcomputers. This microcomputer takes such commands from the lines and then drops them.
 
-        Such commands are returned only if no line is faulty and no answer is on the lines (`quiet`); if not, they are
-        received byte by byte.
+        Commands for other microcomputers are returned only if no line is faulty and no answer is on the lines
+        (`quiet`). In all other cases, this microcomputer receives these commands byte by byte.
         """
         memory, passed = self.memory, list[Taken]()
         if not self._takes():

@@ -28,8 +28,9 @@ class Plant(ABC, Generic[Kept]):
     """The machine as the microcomputers see it at their pins. Numbers identify microcomputers; times are in
     picoseconds.
 
-    A machine that can predict its levels returns them from `next_pin`, and its forces are constant. A machine that is
-    simulated step by step cannot predict its levels; it returns changed levels from `advance`.
+    There are two kinds of machines. A machine of the first kind has constant forces and can predict its levels:
+    `next_pin` returns the next level. A machine of the second kind is simulated step by step and cannot predict its
+    levels: `advance` returns the levels that have changed.
     """
 
     memory: Kept

@@ -117,7 +117,7 @@ class WiredBus(MicrobusPort):
         )
 
     def _reckon(self) -> None:
-        """Compute everything that follows from the state."""
+        """Compute the values that no state contains: due times, shown levels, and inputs of the machine."""
         self._due = {number: self._due_of(number, self.now * PS) for number in self._nodes}
         self._shown = {number: self._status(number) for number in self._nodes}
         self._level, self._changed = self._tied(), False
@@ -246,8 +246,8 @@ class WiredBus(MicrobusPort):
         return min(times) if times else None
 
     def _pass(self, moment: int) -> bool:
-        """Advance to the time `moment`, or to an earlier time at which the interface changes. Returns True if it
-        changed.
+        """Advance to the time `moment`, or to an earlier time at which the interface changes. Returns True if the
+        interface changed.
         """
         free, self._changed = self.free, False
         while True:
@@ -318,7 +318,9 @@ class WiredBus(MicrobusPort):
         return device.crystal.after(0, self.timing.scan, at + 1)
 
     def _reflexes(self, number: int) -> list[tuple[int, bool]]:
-        """Return the motors that a force microcomputer can interrupt, each with True while the motor is interrupted."""
+        """Return the motors that a force microcomputer can interrupt. The value for each motor is True while the motor
+        is interrupted.
+        """
         device = self._nodes[number].device
         assert isinstance(device, Force)
         pairs = ((self._wired.get((number, c)), level) for c, level in enumerate(device.pins))
@@ -456,7 +458,7 @@ class WiredBus(MicrobusPort):
 
     def _low(self, question: Question) -> int | None:
         """Return the time at which the central computer next sees /ANSWER READY low (ps), or None if it never sees
-        that.
+        this line low.
         """
         for start, end in self._answers():
             seen = _COMPUTER.after(question.since, self.timing.poll, max(start, question.since))

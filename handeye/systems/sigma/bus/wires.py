@@ -34,8 +34,9 @@ class Speech(Record, frozen=True, kw_only=True):
     ppm: int  # error of its clock
 
     def lows(self, timing: Timing) -> list[tuple[int, int]]:
-        """Return the times between which /ANSWER READY is low and a byte is on the lines (ps): the beginning
-        and the end for each byte."""
+        """Return an interval for each byte of the answer: its beginning and its end (ps). During the interval, the
+        byte is on the lines and /ANSWER READY is low.
+        """
         clock = Crystal(self.ppm)
         starts = [self.begin + clock.micros(timing.answer * byte) for byte in range(len(self.frame))]
         return [(start, start + clock.micros(timing.answer_low)) for start in starts]
@@ -62,7 +63,7 @@ class Wires:
         self._rigid = {d.where for d in defects if d.kind == "no-turn"}
 
     def strobe(self, sending: Sending) -> tuple[int, int]:
-        """Return the times between which /DATA READY is low for a command (ps)."""
+        """Return the interval in which /DATA READY is low for a command: its beginning and its end (ps)."""
         return (sending.start + sending.falls) * PS, (sending.start + sending.rises) * PS
 
     def whole(self, sending: Sending, segment: int, first: int, last: int) -> bool:
@@ -105,7 +106,9 @@ class Wires:
         return tuple(s for s in self.layout.way(speech.segment) if s and s not in self._rigid)
 
     def answers(self, speeches: Iterable[Speech]) -> list[tuple[int, int]]:
-        """Return the times between which /ANSWER READY is low at the central computer (ps), the earliest first."""
+        """Return the intervals in which /ANSWER READY is low at the central computer, the earliest first. Each
+        interval is a beginning and an end (ps).
+        """
         lows = sorted(low for speech in speeches for low in speech.lows(self.timing))
         joined: list[tuple[int, int]] = []
         for start, end in lows:

@@ -1,4 +1,4 @@
-"""What a program reports of a chess piece, as a line of text."""
+"""Reads the lines of text in which a program reports the height of a chess piece."""
 
 import re
 from math import isfinite
@@ -23,7 +23,7 @@ class ToldHeight(Record, frozen=True, kw_only=True):
 
 
 def told_height(text: str) -> ToldHeight | None:
-    """Return what a printed line reports; None if it reports no height."""
+    """Return the height that a printed line reports; None if the line reports no height."""
     if (said := _TOLD.search(text)) is None:
         return None
     try:

@@ -206,8 +206,9 @@ class Machine(IdealMachine):
 
 
 class Bench:
-    """A machine with a planted fault, as the technician works with it. The technician has the bus, two hands,
-    weights, and spare microcomputers."""
+    """A machine with a planted fault, and the means of a technician: the bus, the technician's own hands, weights, and
+    spare microcomputers.
+    """
 
     layout = BENCH
 

@@ -50,7 +50,9 @@ class Planted(Record, frozen=True, kw_only=True):
 
 
 class Draw:
-    """Chooses the place and the kind of a fault: at random from a seed, or always the first one of the list."""
+    """Chooses the place and the kind of a fault. With a seed, the choice is random; without a seed, the first option
+    is always chosen.
+    """
 
     def __init__(self, rng: np.random.Generator | None) -> None:
         self._rng = rng
@@ -253,8 +255,9 @@ def planted(name: str, seed: int | None = None) -> Planted:
 
 
 def variants(name: str) -> Iterator[tuple[str, Planted]]:
-    """Yield all variants of the fault called `name`, one for each place and kind, each with the words that choose it,
-    such as `dead.X1`. The usual variant comes first."""
+    """Yield all variants of the fault called `name`, one for each place and kind. Yield a text with each variant that
+    names it, such as `dead.X1`. The usual variant comes first.
+    """
     numbers: list[int] | None = []
     while numbers is not None:
         draw = _InTurn(numbers)

@@ -228,7 +228,7 @@ class Game:
 
 
 def demonstrate(game: Game, tell: Callable[[str], None]) -> Verdict:
-    """Play a game with the tests in the order of the paper. The lines are those that a player would type."""
+    """Play a game with the tests in the order of the paper. The function types the same lines as a player would."""
 
     def show(typed: str, _: Sequence[str]) -> None:
         tell(f"> {typed}")

@@ -1,6 +1,6 @@
 """The tests of a diagnosis. Each test sends commands and questions over the bus, and returns what it has measured.
 
-A test uses the interface of the bus, and what a technician can do by hand. A test uses no knowledge of the fault.
+A test may use the interface of the bus and the manual actions of a technician. A test uses no knowledge of the fault.
 """
 
 from collections.abc import Sequence
@@ -36,7 +36,7 @@ _LATE: Final = range(16, 33, 2)  # microseconds after the beginning of a command
 
 
 class Technician(Protocol):
-    """The machine as the technician has it: the bus, and what can be done by hand."""
+    """The means of a technician: the bus of the machine, and actions by hand."""
 
     layout: Layout
 
@@ -311,8 +311,8 @@ def forces(at: Technician, arm: int) -> Forces:
 
 @dataclass(frozen=True, slots=True)
 class Beam:
-    """Whether a light beam reads as interrupted: with nothing in it, with a rod in it, and with a grey filter in it.
-    The value is None if there was no answer.
+    """Three readings of a light beam: with nothing in it, with a rod in it, and with a grey filter in it. A reading is
+    True if the beam appears to be interrupted. A reading is None if there was no answer.
     """
 
     arm: int
@@ -378,7 +378,7 @@ def grip(at: Technician, arm: int) -> Grip:
 
 
 def pause(bus: MicrobusPort, microseconds: int) -> None:
-    """Let this time pass, even if the bus reports changes meanwhile."""
+    """Let `microseconds` pass, even if the bus reports changes meanwhile."""
     end = bus.now + microseconds
     while bus.now < end:
         bus.wait(end)

@@ -53,8 +53,9 @@ class Found(Exception):
 
 
 class Strategy:
-    """One diagnosis. `tell` is called with each test, in the form in which a player types it, and with its
-    result."""
+    """One diagnosis. `tell` is called after each test, with two values: the test in the form in which a player types
+    it, and the lines of text that state the result.
+    """
 
     def __init__(
         self, at: Technician, tell: Callable[[str, Sequence[str]], None] = lambda _, __: None

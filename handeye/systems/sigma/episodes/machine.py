@@ -1,7 +1,7 @@
-"""Arm 1 of the two gantries in an episode. An action gives commands on the bus, as the program of the job does.
+"""Arm 1 of the two gantries in an episode. Like the program of the job, an action sends commands over the bus.
 
-Commands and questions take time on the bus. A period begins with the commands, and ends with the questions, so that
-their answers are there when the period is over.
+Commands and questions take time on the bus. A period begins with the commands and ends with the questions, so that all
+answers have arrived at the end of the period.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -137,7 +137,7 @@ class GantryControls(Controls):
                 yield protocol.move(axis, steps)
 
     def _fingers(self, values: Values) -> Iterator[Command]:
-        """Yield the command to the hand if it is to change."""
+        """Yield the command to the hand if the action changes the hand."""
         closed = values["close"] > SWITCHED
         if closed != self._closed and not self._busy(HAND):
             self._closed = closed
@@ -157,8 +157,8 @@ class GantryControls(Controls):
         self._wait(end)
 
     def _ask(self) -> None:
-        """Read the status lines, and ask every microcomputer that can answer. The question for its count clears the
-        status of an axis that was stopped.
+        """Read the status lines, and ask every microcomputer that can answer. If an axis was stopped, the question for
+        the axis's count clears its status.
         """
         self._statuses = self._shown()
         for index, axis in enumerate(AXES):

@@ -34,8 +34,8 @@ class Crystal:
         return picoseconds * _TICKS // (PS + self.ppm)
 
     def after(self, since: int, micros: int, at: int) -> int:
-        """Times follow one another at equal intervals, beginning with `since`. The interval is `micros`
-        (microseconds). Return the first of these times that is not before `at`.
+        """Return the first time of a series that is not before `at`. The series begins with `since`, and its times
+        have equal intervals of `micros` (microseconds).
         """
         step = self.micros(micros)
         return since + max(0, -(-(at - since) // step)) * step

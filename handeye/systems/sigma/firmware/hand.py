@@ -1,4 +1,4 @@
-"""Firmware of a hand with its light beam, and of sensors that give longer answers."""
+"""Two kinds of firmware: that of a hand with its light beam, and that of sensors that give longer answers."""
 
 from typing import Final
 

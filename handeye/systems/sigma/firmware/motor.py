@@ -1,5 +1,5 @@
-"""Firmware of a motor, which converts commands to pulse trains. If a pin rises during a motion, the motor stops by
-the steepest ramp.
+"""Firmware of a motor, which converts commands to pulse trains. If a pin rises during a motion, the motor slows down
+by the steepest ramp until it stands.
 """
 
 from typing import Final, Literal

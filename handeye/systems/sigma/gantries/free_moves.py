@@ -1,4 +1,4 @@
-"""Makes fast moves in empty space, and measures the forces on the wrists and the reflexes that they trip."""
+"""Makes fast moves in empty space, measures the forces on the wrists, and counts the moves that a reflex stops."""
 
 from collections.abc import Sequence
 from typing import Final
@@ -57,7 +57,7 @@ def free_moves(seed: int, *, compensated: bool) -> FreeMoves:
 
 
 def lines(found: Sequence[FreeMoves]) -> list[str]:
-    """Describe the moves in all worlds in sentences."""
+    """Return sentences that describe the moves in all worlds."""
     out = []
     for compensated in (True, False):
         these = [each for each in found if each.compensated is compensated]

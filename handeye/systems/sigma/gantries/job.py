@@ -1,4 +1,4 @@
-"""A job of the gantries: pieces on their board, a program for them, and a referee."""
+"""A job of the gantries: pieces on the board, a program that moves the gantries, and a referee."""
 
 from __future__ import annotations
 
@@ -37,7 +37,9 @@ class JobTask(GantryTask):
         """
 
     def equip(self, world: GantryWorld, count: int, gantries: Gantries) -> None:
-        """Add the mechanisms of the job, besides the gantries, to the bench. By default there are none."""
+        """Add the job's own mechanisms to the bench, in addition to the gantries. By default, a job has no mechanisms
+        of its own.
+        """
 
     def scene(self, spec: WorldSpec) -> mujoco.MjModel:
         return self.board(GantryWorld(spec), self.usual)[0].compile()

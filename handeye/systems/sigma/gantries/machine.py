@@ -231,7 +231,7 @@ class Gantries(Plant[GantryMemory]):
             self._plan()
 
     def _field(self, index: int, motor: Motor) -> Field:
-        """Return the position of a motor's field from now on."""
+        """Return the positions of a motor's field in the present physics step and in all later steps."""
         return _field(motor, self._step)
 
     def resumed(self) -> None:
@@ -249,7 +249,7 @@ class Gantries(Plant[GantryMemory]):
 
     @property
     def counting(self) -> tuple[bool, ...]:
-        """For each axis, False while the axis searches for the end of its rail. The count of the axis begins there."""
+        """For each axis, False while it searches for the end of its rail. The axis counts from this end."""
         return tuple(motor is not None and motor.memory.state in COUNTING for motor in self._motors)
 
     @property
@@ -436,9 +436,9 @@ def _gauges(model: mujoco.MjModel, rig: Rig, gain: Array, left: float) -> tuple[
     """Return the matrix, shape (axes, readings), and the offset, shape (axes,), that convert the readings of the
     scene's sensors to the force along each axis. An axis without a wrist has the force 0.
 
-    A strain gauge measures the force in the wrist. The signal of an accelerometer cancels the part of this force that
-    accelerates the hand itself, so that the sum is the external force. A fraction of the force of acceleration remains
-    uncorrected. `left` is this fraction.
+    A strain gauge measures the force in the wrist. A part of this force accelerates the hand itself. The signal of an
+    accelerometer cancels this part, so that the sum of both signals is the external force. A fraction of the force of
+    acceleration remains uncorrected. `left` is this fraction.
     """
     size, wrists = len(rig.axes), [f"wrist_{axis}" for axis in rig.wrists]
     bent = _sensors(model, mujoco.mjtSensor.mjSENS_JOINTPOS, wrists)

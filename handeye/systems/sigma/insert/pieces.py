@@ -1,7 +1,7 @@
 """The pieces of the insertion: square pegs that stand in front of a rack, each rotated by up to 20 degrees, and plates
 that each have a square hole.
 
-Only friction on the board holds a plate, and only friction of the fingers holds a peg.
+A plate is held only by its friction on the board, and a peg only by the friction of the fingers.
 """
 
 from typing import Final

@@ -1,5 +1,6 @@
-"""Computes how long the moves of a motor take, from the number of steps and the profile: short, medium or long.
-Durations are in whole microseconds."""
+"""Computes how long a move of a motor takes. The duration depends on the number of steps and on the speed profile
+(short, medium or long). Durations are in whole microseconds.
+"""
 
 import math
 

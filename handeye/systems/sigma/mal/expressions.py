@@ -1,4 +1,4 @@
-"""Parses expressions and conditions by recursive descent. The weakest operators are parsed first."""
+"""Parses expressions and conditions by recursive descent. The operators that bind most weakly are parsed first."""
 
 from typing import Final
 

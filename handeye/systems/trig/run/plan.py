@@ -92,7 +92,7 @@ def imagined(plan: TaughtPlan) -> TrigProgram:
 
 
 def typed(text: str, name: str) -> TrigProgram:
-    """Return the program that results if a script is taught to an imaginary arm. The steps are valid in every
+    """Return the program that results if a script is taught to an imaginary arm. The steps are the same in every
     world, but the places are not. Raises LineRefused.
     """
     session, asked = new_session("none"), 0
