@@ -15,7 +15,7 @@ from handeye.systems.sigma.bus.layout import Layout
 from handeye.systems.sigma.protocol import ANSWERS, Op, echo, name_of, self_test
 
 PATTERNS: Final = (b"\x55\xaa\x33", b"\xaa\x55\xcc")
-"""Test patterns for ECHO: each line low and high, and neighbouring bytes that differ."""
+"""Test patterns for ECHO. They drive each data line both low and high, and neighbouring bytes differ."""
 DEAD: Final = (
     "no microcomputer on this segment answers: the interface of the segment is dead, or a data line is stuck high, "
     "although it should be low in every address on the segment"
