@@ -3,7 +3,7 @@
 python3 run.py docs
 
 The site consists of static files, and needs neither a server nor a network. Nothing is simulated: the replays show
-the recorded runs that handeye includes. Exit code 0: built; 1: a link leads nowhere, or Sphinx has warned.
+recorded runs, from `demo/` and `docs/recordings/`. Exit code 0: built; 1: a link leads nowhere, or Sphinx has warned.
 """
 
 import json
@@ -20,9 +20,8 @@ sys.path.insert(0, str(ROOT))
 
 from docs.website.built import Page, Section, mend, read_page  # noqa: E402
 from docs.website.checks import faults  # noqa: E402
-from docs.website.staging import REPLAYS, BrokenLinks, replay_path, stage  # noqa: E402
+from docs.website.staging import REPLAYS, BrokenLinks, recordings, replay_path, stage  # noqa: E402
 from handeye.cli.reports import page_of  # noqa: E402
-from handeye.core import resources  # noqa: E402
 
 SITE: Final = ROOT / "site"
 WORK: Final = ROOT / "build" / "docs"
@@ -80,10 +79,10 @@ def pages_of(built: Path) -> dict[str, Page]:
 
 def write_replays(built: Path) -> None:
     """Write the page of each recorded run."""
-    for name in ("", *resources.recorded()):
-        page = built / replay_path(f"demo/{name}")
+    for run in recordings(ROOT):
+        page = built / replay_path(run.as_posix())
         page.parent.mkdir(parents=True, exist_ok=True)
-        page.write_bytes(page_of(resources.demo() / name))
+        page.write_bytes(page_of(run))
 
 
 def search_index(pages: dict[str, Page]) -> str:

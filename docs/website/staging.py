@@ -90,6 +90,13 @@ def is_recording(folder: Path) -> bool:
     return (folder / "result.json").is_file()
 
 
+def recordings(root: Path) -> list[Path]:
+    """Return the folders of all recorded runs of the repository `root`."""
+    demo = root / "demo"
+    found = [demo, *demo.iterdir(), *(root / "docs" / "recordings").iterdir()]
+    return sorted(folder for folder in found if is_recording(folder))
+
+
 def replay_path(path: str) -> str:
     """Where the replay of a recorded run is on the site."""
     return f"{REPLAYS}{PurePosixPath(path).name}.html"
