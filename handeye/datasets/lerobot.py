@@ -96,7 +96,9 @@ def _library() -> Any:
         from lerobot.datasets.lerobot_dataset import LeRobotDataset
     except ImportError:
         raise MissingExtra("export lerobot", "lerobot", "lerobot") from None
-    av.logging.set_libav_level(av.logging.WARNING)  # otherwise, it reports each file that it completes
+    av.logging.set_libav_level(
+        av.logging.WARNING
+    )  # at its usual level, it reports each file that it completes
     return LeRobotDataset
 
 

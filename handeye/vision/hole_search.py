@@ -116,8 +116,8 @@ SEED: Final = 4  # points inside the border where bouncing starts
 # All figures above: vision study, sections 1.2 and 1.3.
 
 INNER: Final = 0.25
-"""Distance from the middle of a hole at which beams to its border start, as a fraction of the smaller width of the
-hole. With this value, they start half-way to the border.
+"""Beams that look for the border of a hole start at this distance from the middle of the hole. The distance is a
+fraction of the smaller width of the hole. With this value, the beams start half-way to the border.
 """
 ANGLES: Final = np.linspace(-TURN, TURN, 7)
 """Angles of the beams from the largest hole towards the second, relative to the planned direction. The beams are so

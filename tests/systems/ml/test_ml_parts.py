@@ -86,7 +86,10 @@ def test_an_empty_cradle_and_a_missing_stop_are_reported() -> None:
     runner.cell.truth.data.joint("bar").qpos[:3] = (-0.2, 0.2, 0.007)
     runner.cell.restore(runner.cell.capture())
     result = done(runner)
-    sentence = "the hand does not hold a bar of the right width by its sides, or the fingers are weak"
+    sentence = (
+        "the hand holds no bar, holds a bar of another width, or does not hold the bar by its sides; or the "
+        "fingers are weak"
+    )
     assert (result.exit_code, result.message) == (1, f"{sentence} (done before: 0)")
     elsewhere = job_plan("orient").text.replace("86 MOVE 0 9000 -4500 -4000", "86 MOVE 0 9000 -4500 -2500")
     result = done(begun("orient", text=elsewhere))

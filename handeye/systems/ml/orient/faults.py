@@ -8,7 +8,10 @@ from handeye.systems.ml.bench.reporting import calls_of
 
 TROUBLES: Final = {
     "1": "the hand has met something on its way down",
-    "2": "the hand does not hold a bar of the right width by its sides, or the fingers are weak",
+    "2": (
+        "the hand holds no bar, holds a bar of another width, or does not hold the bar by its sides; or the "
+        "fingers are weak"
+    ),
     "3": "the bar meets nothing where the table should be, or the gauges do not feel the contact",
     "4": "the bar does not lie flat on the table",
     "5": "the bar does not meet the stop, or the gauges do not feel the contact",
