@@ -15,10 +15,10 @@ from handeye.touch.senses import least_gap
 
 OVERDRIVE: Final = 0.005  # m; fingers driven this far beyond their opening count as stalled; placeholder
 SLOWER: Final = 0.5
-"""When one of the fingers begins to touch, both go on closing at this fraction of their speed. While the finger keeps
-touching, the speed falls to 0. The fraction is large enough: the fingers still press an object between them, and the
-switch that needs more force closes too. If the fingers were slower from the beginning, a touching finger would come
-off at once, and would push a loose object a little each time the finger touched it again.
+"""When one finger begins to touch, both fingers go on closing at this fraction of their speed. While the finger keeps
+touching, the speed falls to 0. At this fraction, the fingers still press hard enough on an object between them to
+close both switches. If the fingers closed more slowly, a finger that touches would come off the object at once, and
+would push a loose object a little each time it touched again.
 """
 EASING: Final = 0.0015
 """Greatest distance (m) that the hand moves towards a touching finger until the finger no longer touches. It is the

@@ -16,7 +16,7 @@ class EyeRow(TrialRow, frozen=True, kw_only=True):
     """One attempt of a trial."""
 
     attempt: dict[str, Any] = msgspec.field(default_factory=dict)
-    """The fields of the attempt. They are those of the class that the trial gives as `attempt`."""
+    """The values of the attempt, by the field names of the trial's class for attempts."""
     came: str = "missed"
     told: str = ""
 

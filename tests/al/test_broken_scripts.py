@@ -136,7 +136,11 @@ MISTAKES = {
         "picture `AFTER` is not taken at the target voltage of picture `BEFORE`",
     ),
     "d21": ("part-not-described", 5, "`GENERAL` cannot find `PUMP` without its `region`"),
-    "d22": ("macro-ends-early", 2, "macro `SETDOWN` ends with `STOP`, but its motion is outside the macro"),
+    "d22": (
+        "macro-ends-early",
+        2,
+        "macro `SETDOWN` ends with `STOP`, but the motion that it modifies is outside the macro",
+    ),
     "d23": ("unreadable-file", 1, "`water_pump.toml` is a taught file"),
     "d24": ("unreachable-position", 3, "RIM is 11.23 in beyond the reach of the Stanford arm"),
     "e01": ("unknown-instruction", 6, "there is no instruction `L1`"),

@@ -80,7 +80,9 @@ def test_a_label_before_the_skip_makes_no_difference() -> None:
 
 def test_a_blank_line_within_a_macro_is_told() -> None:
     (told,) = diagnose("DEFINE DOWN\nSTOP 50\n\nCHANGE Z -1\n\nMOVE T\nDOWN\nPARK")
-    assert told.message == "macro `DOWN` ends with `STOP`, but its motion is outside the macro"
+    assert (
+        told.message == "macro `DOWN` ends with `STOP`, but the motion that it modifies is outside the macro"
+    )
 
 
 @pytest.mark.parametrize("behind", ["; the work\nTURN T 9", "MOVE T", "OPEN 1", 'STAGE "the work"'])

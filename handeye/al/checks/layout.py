@@ -86,7 +86,8 @@ def _torn(macro: Macro, behind: Statement, source: Source) -> Iterator[Diagnosti
     if other is text and not text.text[end:start].strip():
         yield problem(
             "macro-ends-early",
-            f"macro {quoted(macro.name.text)} ends with `{modifier.text}`, but its motion is outside the macro",
+            f"macro {quoted(macro.name.text)} ends with `{modifier.text}`, but the motion that it modifies is "
+            "outside the macro",
             modifier.span,
             Label(span=motion.span, text="this line is after the macro"),
             help="remove the blank line, which ends the macro, or write a comment on it",
