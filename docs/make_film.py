@@ -155,7 +155,7 @@ def graph(close: Close, motion: GuardedMotion, time: float) -> Picture:
         points = np.array([at(float(when), float(each)) for when, each in felt], dtype=np.int32)
         cv2.polylines(card, [points], False, CURVE, 6, cv2.LINE_AA)
         cv2.circle(card, tuple(points[-1].tolist()), 11, CURVE, -1, cv2.LINE_AA)
-        what = f"{what} {value:.{digits}f} {close.unit}"
+        what = f"{what} {value:z.{digits}f} {close.unit}"
     _write(card, what, (6, 82), INK)
     return card
 

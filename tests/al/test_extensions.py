@@ -77,7 +77,7 @@ def test_the_manual_explains_every_origin_and_the_page_of_1973_counts_them() -> 
         f"of {counts.total()} instructions, {counts[Document.PAPER_1973]} are from the paper, "
         f"{counts[Document.MANUAL_1973]} from the manual of 1973, {counts[Document.MANUAL_1976]} from a manual "
         f"of 1976, {counts[Document.LISTING_1977]} from the listing of 1977 and {counts[Document.MEMORY]} from "
-        f"memory; the last eight are unverified. {counts[None]} are ours"
+        f"memory; the eight from the listing and from memory are unverified. {counts[None]} are ours"
     ) in compared
 
 
