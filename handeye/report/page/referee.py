@@ -40,8 +40,10 @@ def _content(run: RecordedRun) -> Iterator[Markup]:
             yield note(f"Limit set by the calling program for this run: {limit}.")
 
 
-def findings_table(checks: Iterable[Check]) -> Markup:
-    """Return a table of findings. A bar in each row shows what fraction of the limit the value reaches."""
+def findings_table(checks: Iterable[Check], label: str = "findings") -> Markup:
+    """Return a table of findings. A bar in each row shows what fraction of the limit the value reaches. `label` names
+    the table for screen readers.
+    """
     head = [
         *heads("", "finding"),
         *figure_heads("value", "limit"),
@@ -49,7 +51,7 @@ def findings_table(checks: Iterable[Check]) -> Markup:
         *figure_heads("used"),
         *heads(""),
     ]
-    return table(head, map(_row, checks), label="findings")
+    return table(head, map(_row, checks), label=label)
 
 
 def _row(check: Check) -> list[Markup]:

@@ -106,7 +106,7 @@ const tables = (() => {
     const head = make("tr");
     if (segment.words === 1 && !Object.keys(segment.labels).length) { // words without names, in rows
       const blocks = [...new Set(lines.map((line) => Math.floor((line - 1) / ACROSS)))];
-      head.append(make("th"), ...Array.from({ length: Math.min(ACROSS, segment.lines) }, (_, n) => make("th", { textContent: `+${n}` })));
+      head.append(make("td"), ...Array.from({ length: Math.min(ACROSS, segment.lines) }, (_, n) => make("th", { textContent: `+${n}` })));
       for (const block of blocks) {
         const row = make("tr", {}, make("th", { scope: "row", textContent: block * ACROSS + 1 }));
         for (let line = block * ACROSS + 1; line <= Math.min((block + 1) * ACROSS, segment.lines); line++) row.append(cell(line, 1));
@@ -114,7 +114,7 @@ const tables = (() => {
       }
     } else {
       const titles = segment.names.length === segment.words ? segment.names : Array.from({ length: segment.words }, (_, n) => `${n + 1}`);
-      head.append(make("th"), ...titles.map((title) => make("th", { textContent: segment.words === 1 ? "word" : title, scope: "col" })));
+      head.append(make("td"), ...titles.map((title) => make("th", { textContent: segment.words === 1 ? "word" : title, scope: "col" })));
       for (const line of lines) {
         const label = segment.labels[line] ?? (segment.table === "TK" ? facts.statements[line] ?? "" : "");
         const row = make("tr", {}, make("th", { scope: "row", title: label }, make("b", { textContent: line }), ` ${label}`));

@@ -63,12 +63,13 @@ def _facts(done: JobReport) -> str:
 
 def _sections(done: JobReport, program: TrigProgram) -> Iterator[Markup]:
     yield section("blocks", "Positions of the blocks", *_blocks(done))
-    for name, title, checks in (
-        ("ended", "Measurements of the referee after the program", done.checks),
-        ("undone", "Measurements of the referee after the undo", done.checks_back),
+    for name, after, checks in (
+        ("ended", "after the program", done.checks),
+        ("undone", "after the undo", done.checks_back),
     ):
         if checks:
-            yield section(name, title, findings_table(checks.values()))
+            findings = findings_table(checks.values(), f"findings {after}")
+            yield section(name, f"Measurements of the referee {after}", findings)
     rows = max(1, len(program.graph.nodes))
     displays = [show(program, _COLUMNS, rows) for show in (full_display, partial_display)]
     texts = (joined((plain([line]) for line in lines), Markup("\n")) for lines in displays)
