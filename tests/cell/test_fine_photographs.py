@@ -88,9 +88,9 @@ def test_its_light_is_not_that_of_the_world() -> None:
 @pytest.mark.slow
 def test_many_exposures_make_soft_edges() -> None:
     hard, soft = (
-        np.abs(np.diff(photo(ExposurePlan(exposures=number)).astype(int), axis=1)).max() for number in (1, 12)
+        np.abs(np.diff(photo(ExposurePlan(exposures=number)).astype(int), axis=1)).max() for number in (1, 24)
     )
-    assert soft < 0.75 * hard
+    assert soft < 0.7 * hard
 
 
 @pytest.mark.slow

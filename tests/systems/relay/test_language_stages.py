@@ -1,5 +1,6 @@
 """Trials of stages by language: what is compared, from which state, and what a row keeps of it."""
 
+import re
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -86,6 +87,21 @@ def test_every_stage_says_which_languages_have_a_leg_and_for_what_the_others_hav
     every = {(stage, language) for stage in shared() for language in ("1973", "TRIG", "ML", "MAL")}
     assert with_leg | {*WITHOUT_LEG} == every
     assert not with_leg & {*WITHOUT_LEG}
+
+
+def test_the_page_counts_the_lines_for_which_a_language_has_no_words() -> None:
+    page = (Path(__file__).parents[3] / "docs" / "four_notations.md").read_text(encoding="utf-8")
+    rows = re.findall(
+        r"^\| \w+ \| (\d+) \| (\d+), and (\d+) WAIT: .* \| (\d+), and (\d+) WAIT: .* \| (\d+): ", page, re.M
+    )
+    counted = [
+        (int(lines), int(trig) + int(calls), int(ml) + int(ml_calls), int(mal))
+        for lines, trig, calls, ml, ml_calls, mal in rows
+    ]
+    found = {each.stage: each for each in limits()}
+    assert counted == [
+        (each.lines, each.trig, each.ml, each.mal) for each in (found[stage] for stage in shared())
+    ]
 
 
 def test_remarks_and_blank_lines_are_not_lines_of_a_program() -> None:
