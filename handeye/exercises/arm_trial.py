@@ -23,9 +23,7 @@ from handeye.trials.sweep import Case, Sweep, TrialRow
 if TYPE_CHECKING:
     from handeye.planfile.plan import Plan
 
-SIMULATED_LIMIT_S: Final = (
-    600.0  # the longest search of the bench, and two pictures of a part, take 90 s each
-)
+SIMULATED_LIMIT_S: Final = 600.0  # the longest search of the bench, or two pictures of a part, take 90 s
 CPU_LIMIT_S: Final = 120.0
 
 

@@ -30,15 +30,13 @@ def judge_over_web(truth: Truth) -> Findings:
     measured = SettledState(truth)
     X_BW, hand = inverse(measured.pose("base")), measured.data.site(f"{ARM}tool")
     x, y, _ = X_BW[:3, :3] @ hand.xpos + X_BW[:3, 3]
-    line = (X_BW[:3, :3] @ hand.xmat.reshape(3, 3))[
-        0, 1
-    ]  # finger line: the hand's y axis, along x of the base
+    fingers = X_BW[:3, :3] @ hand.xmat.reshape(3, 3)[:, 1]  # direction of the finger line, the hand's y axis
     return {
         "over_web": mm(
             hypot(x - web_centre(), y), OVER_WEB, "horizontal distance of the hand from the middle of the web"
         ),
         "across_web": deg(
-            acos(max(-1.0, min(1.0, line))),
+            acos(max(-1.0, min(1.0, fingers[0]))),
             ACROSS_WEB,
             "angle between the finger line and the line of the holes",
         ),
