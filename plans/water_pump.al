@@ -103,7 +103,7 @@ K:      SKIPN   6
         CHANGE  [0 0 1] 1       ;no resistance: it has stayed in the dispenser, or is lost
         SOJG    TAKEN ANEW
         SOJG    STAYS LOST
-        WAIT    "SCREW {NR} STAYS IN ITS HOLE WITHOUT TORQUE: ITS POINT, ITS THREAD, THE BIT, OR NO TOP IS UNDER IT"
+        WAIT    "SCREW {NR} STAYS IN ITS HOLE WITHOUT TORQUE: ITS POINT, ITS THREAD OR THE BIT IS WRONG, OR NO TOP IS UNDER IT"
 LOST:   WAIT    "SCREW {NR} IS NOT ON THE BIT: IT IS LOST, OR LOOSE IN ITS HOLE"
 ANEW:   REFETCH S NR
         JUMP    TRY
@@ -113,7 +113,7 @@ DOWN:   HEIGHT  DS -.02 .22     ;a screw stands .1 in higher at the mouth of its
         CHANGE  [0 0 1] .6
         SEARCH  .05
         SOJG    N K
-        WAIT    "SCREW {NR} STANDS WRONG: ITS LENGTH, ITS POINT OR ITS HOLE"
+        WAIT    "SCREW {NR} STANDS WRONG: ITS LENGTH, ITS POINT OR ITS HOLE IS WRONG"
 TURN:   SAVE    HS
         TOOL    190
         TORQUE  42
@@ -133,7 +133,7 @@ TURN:   SAVE    HS
         CHANGE  [0 0 1] .6
         SEARCH  .05             ;where its hole was felt
         SOJG    N K
-        WAIT    "SCREW {NR} STOPS HIGH AGAIN AND AGAIN: IT CROSSES, OR ITS HOLE IS BLOCKED"
+        WAIT    "SCREW {NR} STOPS HIGH AGAIN AND AGAIN: ITS THREAD IS CROSSED, OR ITS HOLE IS BLOCKED"
         JUMP    HOME
 LOOSE:  TOOL    0
         ASSIGN  TAKEN 1         ;it was on the bit; if it stays in its hole, there is none to fetch
@@ -141,7 +141,7 @@ LOOSE:  TOOL    0
         CHANGE  [0 0 1] .6
         SEARCH  .05
         SOJG    N K
-        WAIT    "SCREW {NR} MEETS NO TORQUE: ITS POINT, ITS THREAD OR THE BIT"
+        WAIT    "SCREW {NR} MEETS NO TORQUE: ITS POINT, ITS THREAD OR THE BIT IS WRONG"
 HOME:   SEAT
         SAVE    H               ;how high its head stands
         CHANGE  [0 0 1] 1
@@ -974,7 +974,7 @@ LAYING: LAY
         HEIGHT  BARE .08 1      ;higher: it is caught on something; lower: there is none to take up
         SKIPE   9
         JUMP    THICK
-        WAIT    "NO GASKET LIES ON THE BASE, OR ONE TOO THIN, OR THE PUMP HAS MOVED, OR A JOINT READS WRONG"
+        WAIT    "THE GASKET IS MISSING OR TOO THIN, OR THE PUMP HAS MOVED, OR A JOINT READS WRONG"
         JUMP    FLAT
 THICK:  SOJG    TRIES AGAIN
         WAIT    "THE GASKET LIES TOO HIGH: THERE ARE TWO, OR IT IS TOO THICK, OR SOMETHING LIES UNDER IT"
@@ -1000,7 +1000,7 @@ LOOKS:  LOOK    AFTER HOLD
 ANEW:   FEEL    FACE            ;both pictures again, the arm elsewhere: its shadow may have lain on the pump
         HEIGHT  BARE .04 1
         SKIPN   9
-        WAIT    "NO GASKET LIES ON THE BASE, OR ONE TOO THIN, OR THE PUMP HAS MOVED, OR A JOINT READS WRONG"
+        WAIT    "THE GASKET IS MISSING OR TOO THIN, OR THE PUMP HAS MOVED, OR A JOINT READS WRONG"
         CHANGE  [0 0 1] 1
         LIFT
         MOVE    ASIDE

@@ -246,11 +246,11 @@ K1:     MOVE    H0
         FREE    [1 1 0]
         CHANGE  [0 0 -1] .5     ;drive it until the torque stop
         SKIPN   24
-        WAIT    "SCREW 1 MEETS NO TORQUE: ITS POINT, ITS THREAD OR THE BIT"
+        WAIT    "SCREW 1 MEETS NO TORQUE: ITS POINT, ITS THREAD OR THE BIT IS WRONG"
         TOOL    0
         TRAVEL  .2 .3           ;a crossed screw stops high, and so does one in a blocked hole
         SKIPN   8
-        WAIT    "SCREW 1 STOPS HIGH: IT CROSSES, OR ITS HOLE IS BLOCKED"
+        WAIT    "SCREW 1 STOPS HIGH: ITS THREAD IS CROSSED, OR ITS HOLE IS BLOCKED"
         CHANGE  [0 0 1] 1
         SEARCH  .05
 M2:     MOVE    S2
@@ -287,7 +287,7 @@ K2:     MOVE    H2
         WAIT    "SCREW 2 IS NOT ON THE BIT"
         HEIGHT  HS -.06 .06     ;as high as the one before
         SKIPN   9
-        WAIT    "SCREW 2 STANDS WRONG: ITS LENGTH, ITS POINT OR ITS HOLE"
+        WAIT    "SCREW 2 STANDS WRONG: ITS LENGTH, ITS POINT OR ITS HOLE IS WRONG"
         SAVE    HS
         TOOL    190
         TORQUE  42
@@ -295,11 +295,11 @@ K2:     MOVE    H2
         FREE    [1 1 0]
         CHANGE  [0 0 -1] .5     ;drive it until the torque stop
         SKIPN   24
-        WAIT    "SCREW 2 MEETS NO TORQUE: ITS POINT, ITS THREAD OR THE BIT"
+        WAIT    "SCREW 2 MEETS NO TORQUE: ITS POINT, ITS THREAD OR THE BIT IS WRONG"
         TOOL    0
         TRAVEL  .2 .3           ;a crossed screw stops high, and so does one in a blocked hole
         SKIPN   8
-        WAIT    "SCREW 2 STOPS HIGH: IT CROSSES, OR ITS HOLE IS BLOCKED"
+        WAIT    "SCREW 2 STOPS HIGH: ITS THREAD IS CROSSED, OR ITS HOLE IS BLOCKED"
         CHANGE  [0 0 1] 1
         SEARCH  .07
 D1:     MOVE    DUP
@@ -401,7 +401,7 @@ K3:     MOVE    H5
         WAIT    "SCREW 3 IS NOT ON THE BIT"
         HEIGHT  HS -.06 .06     ;as high as the one before
         SKIPN   9
-        WAIT    "SCREW 3 STANDS WRONG: ITS LENGTH, ITS POINT OR ITS HOLE"
+        WAIT    "SCREW 3 STANDS WRONG: ITS LENGTH, ITS POINT OR ITS HOLE IS WRONG"
         SAVE    HS
         TOOL    190
         TORQUE  42
@@ -409,11 +409,11 @@ K3:     MOVE    H5
         FREE    [1 1 0]
         CHANGE  [0 0 -1] .5     ;drive it until the torque stop
         SKIPN   24
-        WAIT    "SCREW 3 MEETS NO TORQUE: ITS POINT, ITS THREAD OR THE BIT"
+        WAIT    "SCREW 3 MEETS NO TORQUE: ITS POINT, ITS THREAD OR THE BIT IS WRONG"
         TOOL    0
         TRAVEL  .2 .3           ;a crossed screw stops high, and so does one in a blocked hole
         SKIPN   8
-        WAIT    "SCREW 3 STOPS HIGH: IT CROSSES, OR ITS HOLE IS BLOCKED"
+        WAIT    "SCREW 3 STOPS HIGH: ITS THREAD IS CROSSED, OR ITS HOLE IS BLOCKED"
         CHANGE  [0 0 1] 1
         SEARCH  .05
 M4:     MOVE    S4
@@ -450,7 +450,7 @@ K4:     MOVE    H1
         WAIT    "SCREW 4 IS NOT ON THE BIT"
         HEIGHT  HS -.06 .06     ;as high as the one before
         SKIPN   9
-        WAIT    "SCREW 4 STANDS WRONG: ITS LENGTH, ITS POINT OR ITS HOLE"
+        WAIT    "SCREW 4 STANDS WRONG: ITS LENGTH, ITS POINT OR ITS HOLE IS WRONG"
         SAVE    HS
         TOOL    190
         TORQUE  42
@@ -458,11 +458,11 @@ K4:     MOVE    H1
         FREE    [1 1 0]
         CHANGE  [0 0 -1] .5     ;drive it until the torque stop
         SKIPN   24
-        WAIT    "SCREW 4 MEETS NO TORQUE: ITS POINT, ITS THREAD OR THE BIT"
+        WAIT    "SCREW 4 MEETS NO TORQUE: ITS POINT, ITS THREAD OR THE BIT IS WRONG"
         TOOL    0
         TRAVEL  .2 .3           ;a crossed screw stops high, and so does one in a blocked hole
         SKIPN   8
-        WAIT    "SCREW 4 STOPS HIGH: IT CROSSES, OR ITS HOLE IS BLOCKED"
+        WAIT    "SCREW 4 STOPS HIGH: ITS THREAD IS CROSSED, OR ITS HOLE IS BLOCKED"
         CHANGE  [0 0 1] 1
         SEARCH  .05
 M5:     MOVE    S5
@@ -499,7 +499,7 @@ K5:     MOVE    H4
         WAIT    "SCREW 5 IS NOT ON THE BIT"
         HEIGHT  HS -.06 .06     ;as high as the one before
         SKIPN   9
-        WAIT    "SCREW 5 STANDS WRONG: ITS LENGTH, ITS POINT OR ITS HOLE"
+        WAIT    "SCREW 5 STANDS WRONG: ITS LENGTH, ITS POINT OR ITS HOLE IS WRONG"
         SAVE    HS
         TOOL    190
         TORQUE  42
@@ -507,11 +507,11 @@ K5:     MOVE    H4
         FREE    [1 1 0]
         CHANGE  [0 0 -1] .5     ;drive it until the torque stop
         SKIPN   24
-        WAIT    "SCREW 5 MEETS NO TORQUE: ITS POINT, ITS THREAD OR THE BIT"
+        WAIT    "SCREW 5 MEETS NO TORQUE: ITS POINT, ITS THREAD OR THE BIT IS WRONG"
         TOOL    0
         TRAVEL  .2 .3           ;a crossed screw stops high, and so does one in a blocked hole
         SKIPN   8
-        WAIT    "SCREW 5 STOPS HIGH: IT CROSSES, OR ITS HOLE IS BLOCKED"
+        WAIT    "SCREW 5 STOPS HIGH: ITS THREAD IS CROSSED, OR ITS HOLE IS BLOCKED"
         CHANGE  [0 0 1] 1
         SEARCH  .05
 M6:     MOVE    S6
@@ -548,7 +548,7 @@ K6:     MOVE    H3
         WAIT    "SCREW 6 IS NOT ON THE BIT"
         HEIGHT  HS -.06 .06     ;as high as the one before
         SKIPN   9
-        WAIT    "SCREW 6 STANDS WRONG: ITS LENGTH, ITS POINT OR ITS HOLE"
+        WAIT    "SCREW 6 STANDS WRONG: ITS LENGTH, ITS POINT OR ITS HOLE IS WRONG"
         SAVE    HS
         TOOL    190
         TORQUE  42
@@ -556,11 +556,11 @@ K6:     MOVE    H3
         FREE    [1 1 0]
         CHANGE  [0 0 -1] .5     ;drive it until the torque stop
         SKIPN   24
-        WAIT    "SCREW 6 MEETS NO TORQUE: ITS POINT, ITS THREAD OR THE BIT"
+        WAIT    "SCREW 6 MEETS NO TORQUE: ITS POINT, ITS THREAD OR THE BIT IS WRONG"
         TOOL    0
         TRAVEL  .2 .3           ;a crossed screw stops high, and so does one in a blocked hole
         SKIPN   8
-        WAIT    "SCREW 6 STOPS HIGH: IT CROSSES, OR ITS HOLE IS BLOCKED"
+        WAIT    "SCREW 6 STOPS HIGH: ITS THREAD IS CROSSED, OR ITS HOLE IS BLOCKED"
         CHANGE  [0 0 1] 1
         SEARCH  .07
 D2:     MOVE    DUP
