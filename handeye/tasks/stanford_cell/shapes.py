@@ -108,14 +108,15 @@ class Shaper:
             )
         return wedges
 
-    def lands(self, body: mujoco.MjsBody) -> mujoco.MjsBody:
-        """Add a body, fixed to a part, for the lands: the small raised faces on which the part rests.
+    def group(self, body: mujoco.MjsBody, shapes: str) -> mujoco.MjsBody:
+        """Add a body, fixed to a part, for some of the shapes of the part: its bores, or its lands (the small raised
+        faces on which the part rests).
 
         The simulator first searches for contacts between bodies, then between their shapes. Two stacked parts touch
-        only at their lands. If the lands are in bodies of their own, the simulator therefore skips the many other
-        shapes of the parts.
+        only at their lands, and only fasteners touch the many wedges of bores. If lands and bores are in bodies of
+        their own, the simulator therefore skips most shapes of the parts.
         """
-        return body.add_body(name=f"{body.name}_lands")
+        return body.add_body(name=f"{body.name}_{shapes}")
 
     def hole(self, body: mujoco.MjsBody, name: str, mouth: Vector, radius: float) -> None:
         """Mark a hole with a site at its mouth. `mouth` is the centre of the hole in the upper face (m). The first

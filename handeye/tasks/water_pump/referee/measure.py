@@ -237,8 +237,16 @@ def _worst(measured: SettledState, pairs: NDArray[np.int32], depths: NDArray[np.
     if not depths.any():
         return Overlap(depth=0.0, between="nothing")
     worst = int(np.argmax(depths))
-    names = (measured.model.body(measured.model.geom_bodyid[g]).name for g in pairs[worst])
+    names = (_part(measured, int(geom)) for geom in pairs[worst])
     return Overlap(depth=float(depths[worst]), between=" and ".join(names))
+
+
+def _part(measured: SettledState, geom: int) -> str:
+    """Return the name of the part to which a shape belongs. Its lands and bores are separate bodies, fixed to it."""
+    model = measured.model
+    body, parent = (int(b) for b in (model.geom_bodyid[geom], model.body_parentid[model.geom_bodyid[geom]]))
+    fixed = parent != 0 and model.body_jntnum[body] == 0
+    return model.body(parent if fixed else body).name
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -37,12 +37,12 @@ def add_base(shaper: Shaper, world: PumpWorld) -> None:
     shaper.box(body, "solid", low, high, name="plate")
     _add_casting(shaper, body, d, holes)
     _add_looks(shaper, body, world.screws)
-    lands = shaper.lands(body)
+    lands, bores = shaper.group(body, "lands"), shaper.group(body, "bores")
     for number, (x, y) in enumerate(holes):
         shaper.box(
             lands, "base_land", (x - 0.008, y - 0.008, base_top() - 0.010), (x + 0.008, y + 0.008, base_top())
         )
-        _add_tapped_hole(shaper, body, d, number, (x, y))
+        _add_tapped_hole(shaper, body, bores, d, number, (x, y))
 
 
 def _add_casting(shaper: Shaper, body: mujoco.MjsBody, d: Dimensions, holes: Sequence[Point]) -> None:
@@ -103,7 +103,9 @@ def _colour(holes: Sequence[Point], middles: Array, normals: Array) -> NDArray[n
     return np.where(inside, "hole", np.where(up, "machined", "cast"))
 
 
-def _add_tapped_hole(shaper: Shaper, body: mujoco.MjsBody, d: Dimensions, number: int, at: Point) -> None:
+def _add_tapped_hole(
+    shaper: Shaper, body: mujoco.MjsBody, bores: mujoco.MjsBody, d: Dimensions, number: int, at: Point
+) -> None:  # fmt: skip
     """Add the bore and the thread.
 
     The thread is a carrier body. Its frame is the frame of the screw in the thread, with the origin at the screw's
@@ -116,7 +118,7 @@ def _add_tapped_hole(shaper: Shaper, body: mujoco.MjsBody, d: Dimensions, number
         radius=d("base.screw_holes.radius"), outer=d("base.screw_holes.land"), height=depth,
         above=d("base.screw_holes.chamfer"),
     )  # fmt: skip
-    shaper.ring(body, "tap", tap, (x, y, top - depth), lambda _: "tap")
+    shaper.ring(bores, "tap", tap, (x, y, top - depth), lambda _: "tap")
     shaper.hole(body, f"base_hole{number}", (x, y, top), tap.radius)
     carrier = body.add_body(name=f"carrier{number}", pos=[x, y, top])
     carrier.gravcomp = (

@@ -23,9 +23,9 @@ def add_gasket(shaper: Shaper, world: PumpWorld) -> None:
     # The contacts need a mass greater than a sheet's; the moments are those of this mass, spread over the outline.
     body_inertia(body, d("gasket.mass"), (0.03, 0.0, thick / 2), (4e-5, 8e-5, 1.2e-4))
     hole = Bore(radius=d("gasket.screw_hole_radius"), outer=0.007, height=thick)
-    lands = shaper.lands(body)
+    lands, bores = shaper.group(body, "lands"), shaper.group(body, "bores")
     for number, (px, py) in enumerate(world.drilled("gasket")):
-        shaper.ring(body, "gasket_hole", hole, (px, py, 0.0), lambda _: "bore")
+        shaper.ring(bores, "gasket_hole", hole, (px, py, 0.0), lambda _: "bore")
         shaper.hole(body, f"gasket_hole{number}", (px, py, thick), hole.radius)
         shaper.ball(lands, "gasket_land", thick / 2, (px, py, thick / 2))
     half = d("gasket.web") / 2
@@ -58,9 +58,9 @@ def _add_flange(shaper: Shaper, body: mujoco.MjsBody, d: Dimensions, holes: Sequ
         radius=d("top.screw_hole_radius"), outer=0.0095, height=flange,
         above=d("top.chamfer_above"), below=d("top.chamfer_below"),
     )  # fmt: skip
-    lands = shaper.lands(body)
+    lands, bores = shaper.group(body, "lands"), shaper.group(body, "bores")
     for number, (x, y) in enumerate(holes):
-        shaper.ring(body, "top_hole", hole, (x, y, 0.0), lambda _: "bore")
+        shaper.ring(bores, "top_hole", hole, (x, y, 0.0), lambda _: "bore")
         shaper.hole(body, f"top_hole{number}", (x, y, flange), hole.radius)
         shaper.box(body, "seat", (x - 0.007, y - 0.007, 0.0), (x + 0.007, y + 0.007, flange))
         shaper.box(lands, "top_land", (x - 0.008, y - 0.008, 0.0), (x + 0.008, y + 0.008, 0.006))
