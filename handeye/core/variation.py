@@ -231,7 +231,7 @@ class Variation:
         found = tuple(q for q in those if q.distribution.is_error and (name != UNSOURCED or q.unsourced))
         if not found:
             what = "no unsourced error" if name == UNSOURCED else f"no error in {quoted(name)}"
-            raise BadArgument(f"the world has {what} to scale")
+            raise BadArgument(f"a scale cannot apply: the world has {what}")
         return found
 
     def check(self, spec: WorldSpec) -> None:

@@ -99,7 +99,7 @@ class Pile(Mechanism[Poured]):
 
     def check(self, state: Poured) -> None:
         if state != self.poured:
-            raise BadFile("different parts lay in the bin of the saved run")
+            raise BadFile("the saved run had other parts in its bin than this world")
 
     def restore(self, state: Poured) -> None:
         self.poured = state

@@ -69,7 +69,7 @@ class Witness(Mechanism[H], Generic[H]):
 
     def check(self, state: H) -> None:
         if replace(state, **{name: getattr(self.heard, name) for name in self.growing}) != self.heard:
-            raise BadFile("the board of the saved run held different pieces")
+            raise BadFile("the saved run had other pieces on its board than this world")
         if len(state.lines) > _MOST or any(len(line) > _LONGEST for line in state.lines):
             raise BadFile("the saved run has more lines of output than the program can print")
 

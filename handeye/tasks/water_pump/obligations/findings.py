@@ -76,8 +76,8 @@ def _sensed(screws: int) -> Iterator[Obligation]:
         Obligation(finding="screws_crossed", claims=threaded, rests="A crossed screw stops at least .17 in too high."),
         Obligation(
             finding="screws_clamp", claims=tight,
-            rests="A screw that is driven later shifts the load of the others. The program feels the torque stop, "
-            "not the clamping force: if a thread is hard to turn, its screw clamps less.",
+            rests="A screw that is driven later shifts the load of the others. The program measures the torque, not "
+            "the clamping force: if a thread is hard to turn, its screw clamps less.",
         ),
         Obligation(finding="screws_strain", claims=(claims.gentle(),), rests=_CLUTCH),
         Obligation(finding="screws_turned", claims=(claims.gentle(),), rests=_CLUTCH),
@@ -86,7 +86,7 @@ def _sensed(screws: int) -> Iterator[Obligation]:
         Obligation(finding="rack", claims=rack, rests=_RACK),
         Obligation(finding="rack_tilt", claims=rack, rests=_RACK),
         Obligation(
-            finding="dispenser", claims=driven, rests="If each thread has its screw, no screw is loose."
+            finding="dispenser", claims=driven, rests="If each thread has its screw, no screw lies elsewhere."
         ),
         Obligation(
             finding="rotor", claims=free,
@@ -98,7 +98,7 @@ def _sensed(screws: int) -> Iterator[Obligation]:
         Obligation(finding="motor", claims=(claims.motor_off(),), rests=_SERVO),
         Obligation(
             finding="rest", claims=(claims.released(),),
-            rests="A part that hangs outside the hand is felt only where another finding asks for a touch.",
+            rests="The program feels a hanging part only where another finding asks for a touch.",
         ),
     )  # fmt: skip
 
@@ -123,8 +123,7 @@ _UNSENSED: Final = {
     "threads_scarred": "The arm does not feel a scar; the referee only warns of one.",
     "floor": "No step looks under the table.",
     "tray": (
-        "It is a property of the simulation: while a carrier represents a screw in its thread, the screw's own "
-        "body stays on its tray."
+        "In the simulation, the screw's own body stays on its tray while a carrier represents the screw in its thread."
     ),
     "still": "No step waits to see whether a part comes to rest.",
     "arm_still": (
@@ -133,9 +132,9 @@ _UNSENSED: Final = {
     ),
     "overlap_bores": "It is a property of the simulation: solids do not pass through each other.",
     "overlap": "It is a property of the simulation: solids do not pass through each other.",
-    "as_drawn": "It is a property of the simulation: no part changes during a run.",
-    "bonds": "It is a property of the simulation: bonds open and close only as the work requires.",
-    "held": "It is a property of the simulation: nothing but the arm acts on the parts.",
-    "numbers": "It is a property of the simulation: its numbers are finite.",
+    "as_drawn": "In the simulation, no part changes during a run.",
+    "bonds": "In the simulation, bonds open and close only as the work requires.",
+    "held": "In the simulation, only the arm acts on the parts.",
+    "numbers": "In the simulation, all numbers are finite.",
 }
 """Findings that no program is asked to show, and for each the reason."""
