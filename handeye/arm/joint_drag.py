@@ -45,8 +45,8 @@ errors of masses, mass centres and drives that are three times their spreads at 
 level are twice the stated ones.
 """
 AT_HAND: Final = 0.15
-"""Longest lever arm (m) about the tool centre point of a force on the hand or on the object in it. Our choice: this
-lever arm reaches beyond the palm, but not to the wrist centre.
+"""Longest lever arm (m), about the tool centre point, that a force on the hand or on the held object can have. Our
+choice: this distance reaches beyond the palm, but not to the wrist centre.
 """
 ALONE: Final = 0.9  # share of the squares of all unexplained torques that one joint must have; chosen
 

@@ -14,13 +14,17 @@ LAMP: Final = "studio_lamp"
 """Numeric field of a scene that gives the place of the lamp for photographs, in W (m)."""
 CUTOFF: Final = 75.0  # half of the angle of the lamp's cone, degrees
 SHADOWED: Final = 0.5
-"""Part of the cone that casts shadows, as a fraction of its angle. A larger part would make the shadows coarser."""
+"""Part of the cone in which bodies cast shadows, as a fraction of the cone's angle. A larger part would make the
+shadows coarser.
+"""
 SKY_SHADOWED: Final = (
     1.5  # radius of the region in which the sky casts shadows, divided by the size of the scene
 )
 _FALLOFF: Final = 0.6  # exponent of the lamp's falloff towards the edge of its cone
 _STAND: Final = np.array([0.9, -0.95, 0.9])
-"""Place of the lamp in a scene that does not state it, from the middle of the scene, divided by its size."""
+"""Place of the lamp relative to the middle of the scene, as a multiple of the size of the scene. A scene can state
+another place.
+"""
 _AWAY: Final = 2.0  # distance of the sky from the middle of the scene, divided by the size of the scene
 _GRAZING: Final = 0.2  # least height of a point of the sky, divided by its distance
 _WANDER: Final = 0.07
@@ -47,7 +51,9 @@ class Lighting:
     everywhere: Colour  # light that throws no shadow
     radius: float  # radius of the lamp's disc, in m
     stand: Colour | None = None
-    """Place of the lamp from the middle of the scene, in sizes of the scene. None: the place that the scene states."""
+    """Position of the lamp relative to the middle of the scene, divided by the size of the scene. None: the position
+    that the scene gives.
+    """
 
     def throw(
         self, scene: mujoco.MjvScene, model: mujoco.MjModel, lamp: Array, sky: Array, wander: Array

@@ -37,7 +37,7 @@ mcp = agents:mcp: Serve an agent (model context protocol over standard input and
 export: Export a world, or the state of a run, to other programs.
 export mjcf = exports:mjcf: Write a scene that plain MuJoCo can load: scene.xml, its meshes and textures, and a README.
 export glb = exports:glb: Write the solids of a scene for programs that show or measure shapes; check that each solid is closed and has the right mass.
-export urdf = exports:urdf: Write the arm to a URDF file, as the drawing of the arm describes it, and list the joints of the arm.
+export urdf = exports:urdf: Write the arm to a URDF file, with the dimensions of its drawing, and list the joints of the arm.
 export lerobot = datasets:lerobot: Write runs as a data set for learned policies, in the format of LeRobot 3, with a data card; needs the extra `lerobot`.
 inspect = scripts:inspect: Show what a plan does: stages, steps, times, guards, forces, and what each step depends on.
 diff = scripts:diff: Compare what two plans do, step by step.
@@ -59,7 +59,7 @@ trials: Repeat a task in many worlds and count successes.
 trials assembly = batches:assembly_trials: Assemble in many worlds, to learn the success rate with its confidence interval, and what failed where.
 trials dismantling = batches:dismantling_trials: Assemble in many worlds, make the arm take each pump apart again, and count how often every part is back in place.
 trials disturbed = trials:disturbed_trials: Disturb a finished pump without telling the program, then take it apart: does a guard stop the arm before the arm does damage?
-trials compare = batches:compare_trials: Compare batches of trials with a first batch, world by world, to see how much a sensor, or an error of the world, changes the success rate.
+trials compare = batches:compare_trials: Compare one or more batches of trials with the first batch, world by world, to see how much a sensor, or an error of the world, changes the success rate.
 trials base = trials:base_vision_trials: Find the base of the pump on the belt, at many poses: how often it is found, how accurately, and how often in the wrong place.
 trials gasket = trials:gasket_vision_trials: Inspect gaskets by camera: in place, shifted by .3 in, absent, and one on top of another.
 trials chaos = trials:chaos_trials: Chaos test: random faults, crashes, interruptions and operator answers; each failure is reduced to one command that repeats it.
@@ -82,8 +82,8 @@ sentence of the command's docstring; a group of commands has no function. The mo
 
 class _Command(CommandSpec):
     def resolve(self, parent_app: App) -> App:
-        """Import the command. The docstring of the command is its help; the sentence in the table is for lists of
-        commands, which do not import the command.
+        """Import the command. The docstring of the command is its help. A list of commands shows the sentence in the
+        table instead, so it does not have to import the commands.
         """
         self.help = None
         restore_docstring(loaded(self.import_path, "the command at "))

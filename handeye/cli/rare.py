@@ -77,7 +77,7 @@ class SampleOptions:
         Parameter(
             name=["--out", "-o"],
             help="Folder of the search. Each run is saved as it ends, so that the same command continues an "
-            "interrupted search; the worlds in which the program fails are saved in its folder `worlds`.",
+            "interrupted search; the worlds in which the program fails are saved in its subfolder `worlds`.",
         ),
     ] = None
     overwrite: Annotated[bool, Parameter(help="Discard the runs in the folder given by --out.")] = False
@@ -244,7 +244,11 @@ def worst_trials(
     *,
     nearest: Annotated[
         WholeNumber,
-        Parameter(help="Number of failing worlds from which the search for nearer failing worlds starts."),
+        Parameter(
+            help=(
+                "Number of failing worlds, the nearest ones, from which the search for still nearer worlds starts."
+            )
+        ),
     ] = 5,
     rounds: Annotated[
         WholeNumber, Parameter(help="Greatest number of runs in the search from one failing world.")

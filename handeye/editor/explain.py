@@ -208,8 +208,8 @@ REMEDIES: Final[dict[int, Remedy]] = {
         'LOOK V\nGENERAL BASE V\nLOOK W\nSPECIFIC BASE W\nSKIPN 31 ;its holes are found\nWAIT "TURN THE BASE"\nMOVE P',
     ),
     errors.GASKET_WRONG: Remedy(
-        "The pictures before and after the gasket was placed do not show the change that a gasket in its place "
-        "makes. Place the gasket again, or ask the operator.",
+        "The difference between the pictures taken before and after the gasket was placed is not the one that a "
+        "correctly placed gasket makes. Place the gasket again, or ask the operator.",
         "LOOK BEFORE HOLD\nMOVE P\nLOOK AFTER HOLD\nINSPECT BASE BEFORE AFTER\nSKIPN 32 ;it is on properly\n"
         'WAIT "CHECK THE GASKET"\nPARK',
     ),

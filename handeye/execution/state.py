@@ -208,12 +208,12 @@ class ExecutionState(SystemState, kw_only=True):
     """Executed steps that have not been reversed, in order."""
     undoing: ReversalOrder | None = None  # the reversal in progress
     lets_go: Natural | None = None
-    """Index of the step that took the screw which has now been turned out. The reversal of that step leaves the
-    screw in its place.
+    """Index of the step in which the hand picked up the screw that has just been turned out. The reversal of that step
+    leaves the screw in its place.
     """
     held: float | None = None
-    """Gap (m) at which the hand holds an object during a reversal. None if the hand holds no object, or if the program
-    has continued.
+    """Gap (m) at which the hand holds an object during a reversal. None if the hand holds no object, or after the
+    program has continued.
     """
     unwound: dict[int, int] = msgspec.field(default_factory=dict)
     """For each step of the present stage, the number of reversals that began at the step. A reversal does not

@@ -13,8 +13,8 @@ from handeye.core.pose import Array
 from handeye.vision.scan import Scan
 
 SPAN: Final = 3
-"""Number of points averaged on either side of an edge. Averages of 2 points are too noisy if the noise is one
-level.
+"""Number of points averaged on either side of an edge. Averages of 2 points are too noisy if the noise of the picture
+is one grey level.
 """
 
 BRIGHTER: Final = 1

@@ -256,7 +256,9 @@ def _details(rows: Sequence[StageRow]) -> tuple[Details, ...]:
             heads=("stage", "one", "other", "pairs", "only one", "only other", "p", "other longer by", "p of time"),
         ),
         Details(
-            name="limits", title="Stages, and lines of the careful program for which a language has no words",
+            name="limits", title=(
+                "For each stage: its legs, and the lines of the careful program that a language cannot express"
+            ),
             rows=limits(),
             heads=("stage", "legs in", "no words in TRIG, ML and MAL for", "lines", "TRIG", "ML", "MAL"),
         ),
