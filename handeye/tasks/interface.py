@@ -193,8 +193,8 @@ class Task(AnyTask):
     park: Array
     """Joint positions at which the cell is switched on (rad or m), shape (n,)."""
     script: str | None = None
-    """The task's own program, used unless another is named: a file among the included plans, or the path of a file
-    elsewhere.
+    """The task's own program: a file among the included plans, or the path of a file elsewhere. The task runs this
+    program unless the user names another.
     """
     other_scripts: tuple[str, ...] = ()
     """Further programs of the task, given in the same way as `script`. Commands find each program by its file name

@@ -24,8 +24,8 @@ MOVED: Final = 0.03 * INCH
 """Greatest apparent movement (m) of a part that still counts as no movement.
 
 From one picture to the next, a pump at rest seems to move by .02 to .07 mm. A pump that is pushed against its blocks
-moves by .13 to .16 mm (worlds of seeds 3 and 15 at the nominal level). If a base is .05 in away from its place, the
-base is wrong (reference test 59).
+moves by .13 to .16 mm (worlds of seeds 3 and 15 at the nominal level). The limit must be below .05 in, because a base
+that is .05 in away from its place is wrong (reference test 59).
 """
 SPOT: Final = 5  # side of a square, points: a screw head is about as large
 DIFFERENT: Final = 1.6

@@ -111,7 +111,10 @@ class Tracker(Mechanism[Felt]):
 
     def check(self, state: Felt) -> None:
         if len(state.touches) > LONGEST or not np.isfinite(state.touches).all():
-            raise BadFile("the saved touches of the follower are too many, or not finite numbers")
+            raise BadFile(
+                "the follower has too many saved touches, or a saved touch contains a value that is not a finite "
+                "number"
+            )
 
     def restore(self, state: Felt) -> None:
         self.felt = state

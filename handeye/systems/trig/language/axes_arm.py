@@ -32,9 +32,9 @@ with an accuracy of .3 mm, so an object may have dropped by .6 to .9 mm when it 
 grasped the object too high, by the same distance.
 """
 AGAIN: Final = 1.5
-"""Permitted force during a reversal, as a multiple of the force met in the move itself. The factor is the same as for
-the pump. When the hand has pressed an object onto a support and then rises, the sensed force changes by about the
-force met in the move.
+"""Permitted force during the reversal of a move, as a multiple of the force that the move met. The factor is the same
+as for the pump. When the hand has pressed an object onto a support and then rises, the sensed force changes by about
+the force that the move met.
 """
 _TARE: Final = 10  # readings averaged before a guarded move
 

@@ -4,8 +4,8 @@ from typing import Final
 
 BLOCK_GAP: Final = 1.27  # mm, .05 in: reference test 59, displacement from the standard position
 BASE_HEIGHT: Final = 0.5
-"""Greatest height error (mm) of the base's reference point. It is not 0, because contacts are soft. A base that hangs
-on a block is 6 mm too high.
+"""Greatest height error (mm) of the base's reference point. The limit is not 0, because contacts are soft. A base that
+hangs on a block is 6 mm too high.
 """
 BASE_TILT: Final = 0.3  # deg: 1 mm over the length of the plate's shorter half
 BASE_YAW: Final = 1.0  # deg, of the base's edge against the far block: the assembly study's criterion
@@ -18,8 +18,8 @@ limit would already reveal a lost chip under the layer (assembly study).
 SCREW_GAP: Final = 0.2
 """Greatest gap between head and flange (mm). A cross-threaded screw stands 4.4 to 5.7 mm high (assembly study)."""
 SCREW_CLAMP: Final = 40.0
-"""Least clamping force of a screw (N). It is more than the 19 N with which a hand pulls. Seated screws end at 56 to
-298 N.
+"""Least clamping force of a screw (N). It exceeds 19 N, the force with which a hand pulls. The clamping force of
+seated screws is 56 to 298 N.
 """
 SCREW_TURNED: Final = 400.0
 """Greatest force under a head when its screw was last turned (N). In pumps that the arm has made, it is at most 250 N.
@@ -27,8 +27,8 @@ With the least friction that thread and head have in any world, the torque of th
 most 357 N; twice this torque causes 530 to 560 N.
 """
 SCREW_STRAIN: Final = 420.0
-"""Greatest force under a head at the end (N). It may exceed SCREW_TURNED, because screws that are tightened later
-shift the load. In pumps that the arm has made, it is at most 298 N.
+"""Greatest force under a head at the end (N). The force may exceed SCREW_TURNED, because screws that are tightened
+later shift the load. In pumps that the arm has made, the force is at most 298 N.
 """
 SCREW_HOLD: Final = 0.02
 """Least torque to turn a screw back (N m): the friction torque of a clean thread without clamp. With a clamping
@@ -67,7 +67,7 @@ chamfer. A pin that stands in the chamfer, or beside its hole, is at least 19 mm
 """
 PIN_LEAN: Final = 2.0
 """Greatest tilt (degrees) of a pin in its hole in the base. With .05 mm of play, a nose of 19 mm can tilt by .3
-degrees; the contacts are soft.
+degrees. The limit is larger because the contacts are soft.
 """
 PIN_TILT: Final = 10.0  # deg: a pin tilted by more leans out of the holder
 RACK_TILT: Final = 5.0
@@ -83,7 +83,8 @@ reference, 40 oz at the crank, allows .35 N m, but a rotor that needs this torqu
 """
 
 ROTOR_PLACE: Final = 0.1
-"""Distance (mm) of the rotor from its bearing, and of the crank pin from its place. The bearing has no play."""
+"""Greatest distance (mm) of the rotor from its bearing, and of the crank pin from its place. The bearing has no play.
+"""
 ROTOR_LEAN: Final = 0.1  # deg from the top's axis: in the design, the two axes are parallel
 
 STILL: Final = 1.0
@@ -105,14 +106,14 @@ stand draw it along before they lift it: by 3.3 mm in the world of seed 0. The g
 If it were displaced by 6.4 mm, the fingers of the next run would not fit into its holes.
 """
 APART_TURN: Final = 3.0
-"""Greatest turn (degrees) of a part. At this turn, the end of a part as long as the base has moved by half of the
+"""Greatest turn (degrees) of a part. At this turn, the end of a part of the base's length has moved by half of the
 fingers' clearance.
 """
 
 SETTLE: Final = 0.2  # s: long enough to compute the present forces, and for unsupported parts to fall
 TRAY: Final = 3.0
 """Greatest distance (mm) of the parked body of a screw from its place on the tray below the floor. While a carrier
-represents the screw, the screw would exist twice if its body were elsewhere.
+represents the screw, the body of the screw must stay on the tray: anywhere else, the body would be a second screw.
 """
 FORCE: Final = 0.0  # N and N m, external, on a part or the arm: nothing may be held by an unseen hand
 MERGED: Final = 0.1

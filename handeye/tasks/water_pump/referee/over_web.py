@@ -19,7 +19,7 @@ accuracy of vision in 1973.
 """
 ACROSS_WEB: Final = 3.0
 """Greatest angle (deg) between the finger line and the line between the large holes. Two pictures determine the
-direction of the base to .26 deg (root mean square); the rest is for the arm. Our choice.
+direction of the base to .26 deg (root mean square); the rest of the angle allows for errors of the arm. Our choice.
 """
 
 
