@@ -202,7 +202,7 @@ def _rule(on_stop: object) -> Operator:
         operator = parse_policy(on_stop, ()) if isinstance(on_stop, str) else None
     if operator is None:
         raise BadArgument(
-            f"on_stop must be `abort`, `retry:N` with N of 1 or more, or `unwind`, not {on_stop!r}"
+            f"on_stop must be `abort`, `retry:N` (N is at least 1) or `unwind`, not {on_stop!r}"
         )
     return operator
 

@@ -20,8 +20,8 @@ from handeye.core.pose import Array
 
 MASS_DOUBT: Final = 0.05  # of a link's mass; chosen
 PLAUSIBLE: Final = 6 * MASS_DOUBT
-"""Plausible relative error of the weight of a link. Our choice: errors of 9 % occur in nominal worlds, and errors of
-17 % occur in worlds with twice the errors.
+"""Greatest plausible relative error of the weight of a link. Our choice, well above the errors that occur: 9 % in
+nominal worlds, and 17 % in worlds with twice the errors.
 """
 TORQUE_DOUBT: Final = 0.002  # of a drive's greatest torque: half a step of 8 bits
 

@@ -38,14 +38,15 @@ def exercise(
     first_seed: Annotated[
         WholeNumber | None,
         Parameter(
-            help="Try your program in other worlds: as many as the exercise has, but with seeds that begin with "
-            "this one. Default: the worlds of the exercise."
+            help="Try your program in other worlds, as many as the exercise has. This number is the seed of the "
+            "first world; each further world has the next seed. Default: the worlds of the exercise."
         ),
     ] = None,
     jobs: Annotated[WholeNumber, Parameter(help="Number of processes that work at the same time.")] = 2,
     json: Json = False,
 ) -> int:
-    """List the exercises of the course, show one, or grade a program with a verdict over all worlds, and hints.
+    """List the exercises of the course, show one of them, or grade a program. A grade is a verdict over all worlds,
+    with hints.
 
     ```
     handeye exercise

@@ -45,8 +45,8 @@ def mutant_trials(
     camera: Camera = "auto",
     options: SweepOptions = ANY,
 ) -> int:
-    """Make mutants of a program, each with one check taken away or weakened: does the proof refuse the mutant, or does
-    another check catch the faults for which the changed check was meant?
+    """Make mutants of a program, each with one check taken away or weakened. Does the proof refuse each mutant? If
+    not, does another check catch the faults for which the changed check was meant?
 
     If `handeye check --prove` accepts a mutant, the mutant runs from the beginning of its stage, once with each fault
     for which the changed check is meant. The mutant is `caught` if it stops, `silent` if it reports success with wrong

@@ -182,8 +182,8 @@ def run(
 ) -> int:
     """Run a plan, or some of its stages, in the work cell of its task: straight through or step by step.
 
-    Give a stage by its number, its name, or part of its name. A later stage starts from its checkpoint. If this
-    checkpoint is missing, the earlier stages run first.
+    Give a stage by its number, its name, or part of its name. A run that does not begin with the first stage starts
+    from a checkpoint. If this checkpoint is missing, the earlier stages run first.
 
     Exit code 0: the program finished, or paused where asked; 1: the program stopped and called the operator; 3: the
     program reported success, but the referee (if it judges the run) disagrees; 2: bad input, or a piped --step command

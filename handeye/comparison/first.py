@@ -32,7 +32,9 @@ from handeye.trace.trace import Trace
 OF_A_PERIOD: Final = (JOINTS, HAND, MACHINES, FRAMES)
 """Channels that are recorded in every servo period."""
 _SAID_TWICE: Final = (LOG, SCENE)
-"""Channels that only repeat other channels: sentences of events, and the appearance of bodies."""
+"""Channels that only repeat what other channels contain. `LOG` has a sentence for each event, and `SCENE` the
+appearance of bodies.
+"""
 
 
 @dataclass(frozen=True, slots=True)

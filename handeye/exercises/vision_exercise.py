@@ -34,8 +34,8 @@ SEE: Final = ArmExercise(
         ),
         (
             "called the operator",
-            "The base lies as it should here. Before each LOOK, choose the lens, aim the camera, and keep the arm out "
-            "of the picture.",
+            "In this exercise, the base always lies as it should. Before each LOOK, choose the lens, aim the "
+            "camera, and keep the arm out of the picture.",
         ),
     ),
 )

@@ -20,8 +20,8 @@ class Difference(Record, frozen=True, kw_only=True):
     pairs: int
     more: float  # Median, over the pairs, of the value in this batch minus the value in the first batch
     p: float
-    """Two-sided p-value of Wilcoxon's signed-rank test: if neither batch is better, the probability that the
-    differences favour one of the batches at least as strongly as here.
+    """Two-sided p-value of Wilcoxon's signed-rank test. Suppose that neither batch is better: `p` is then the
+    probability of differences that favour one of the batches at least as strongly as these differences do.
     """
 
 

@@ -47,7 +47,7 @@ PANIC: Final = FaultKind(
     usual_stage=4,
     expected=ExpectedDetection(calls=("stopped by the panic button; the brakes are set",)),
 )
-"""The panic button, which is listed here although it is no fault of a cell."""
+"""The panic button. It is listed here although it is not a fault of the cell."""
 
 
 def with_panic(catalogue: Catalogue) -> Catalogue:

@@ -25,12 +25,14 @@ if TYPE_CHECKING:
 Ended = Literal[
     "ended", "raised", "machine", "killed", "simulated limit", "processor limit", "wall limit", "not built"
 ]
-"""How a trial ended: by itself; by an exception; because this computer lacked memory or could not open a file;
-because its process was killed; at a limit of simulated time, of CPU time, or (in older batches) of wall-clock
-time; or because the work that the trial needs was not built.
+"""How a trial ended. `ended`: by itself. `raised`: by an exception. `machine`: this computer lacked memory or could
+not open a file. `killed`: the trial's process was killed. The three limits: the trial reached a limit of simulated
+time, of CPU time, or (in older batches) of wall-clock time. `not built`: the work that the trial needs was not built.
 """
 Standing = Literal["right", "wrong", "silent", "uncounted"]
-"""The class of an outcome: success; failure; failure that the program reported as a success; not counted."""
+"""The class of an outcome. `right`: success. `wrong`: failure. `silent`: a failure that the program reported as a
+success. `uncounted`: the trial does not count.
+"""
 
 FAILED: Final = "failed"  # Outcome of a trial that did not finish
 GRACE: Final = 1.1
@@ -201,7 +203,7 @@ class Sweep(Generic[R]):
     """Executes the trials of a case, if this kind has no options. A kind without options needs no command of its own.
     """
     shared_worlds: bool = False
-    """True if several trials share a world, so that the seed of a trial does not follow from its number."""
+    """True if several trials share a world. The number of a trial then does not determine the seed of its world."""
 
     def standing(self, row: R) -> Standing:
         """Say how a trial's outcome counts: as a success, as a failure, as a silent failure, or not at all."""

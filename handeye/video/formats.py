@@ -201,7 +201,7 @@ FORMATS: Final = {
     ),
 }
 REFUSED: Final = {
-    (".gif",): "a GIF would be seven times as large, with only 256 colours",
-    (".png", ".apng"): "an animated PNG would be twenty times as large",
+    (".gif",): "a GIF would be seven times as large as a WebP picture, with only 256 colours",
+    (".png", ".apng"): "an animated PNG would be twenty times as large as a WebP picture",
     (".m4v", ".mov"): "this format is not supported; an .mp4 holds the same H.264 video",
 }

@@ -29,7 +29,7 @@ from handeye.touch.senses import too_early
 
 ALLOWED: Final = 20.0
 """Least force limit of a reversal (N). We measured the sensed force while a top is lifted off the pins. The greatest
-force is 11 N. If a screw is left in the top, the force is 36 N and then 108 N.
+force was 11 N. With a screw left in the top, the force was 36 N and then 108 N.
 """
 SHARE: Final = 1.5  # multiple of the force that the step itself met
 

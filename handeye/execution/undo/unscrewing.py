@@ -27,8 +27,8 @@ TURN: Final = 0.00127 * 1.5
 start of the thread is not sensed.
 """
 TIGHTENED: Final = 3 * 0.00127
-"""Height (m) of three turns of the thread. A screw that rises less was only tightened. A screw driven from the
-mouth of its thread makes five turns.
+"""Height (m) of three turns of the thread. A screw that rises by less than this height was only tightened. A screw
+driven from the mouth of its thread makes five turns.
 """
 QUIET: Final = 20  # servo periods without rising that show the end; a thread would lift a screw by 3 mm
 RISING: Final = 2e-4  # m that count as risen

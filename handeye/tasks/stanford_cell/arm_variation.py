@@ -90,7 +90,7 @@ def arm() -> Iterator[Quantity]:
             "the whole arm (layout study, section 4)."),
         group("arm.wave_phase", phases, "deg", "Phase of the periodic error of the position reading."),
         group("arm.pot_noise", numbered(Noise, 0.004, 0.004, 0.002, 0.01, 0.01, 0.01), JOINT_UNITS,
-            "Reading-to-reading noise of the potentiometers, before the converter.",
+            "Noise of the potentiometers, which differs from reading to reading, before the converter.",
             unsourced="the noise is far smaller than a step of the converter (.05 to .08 deg and .009 in), so the "
                 "converter does not show it. Bound: the output smoothness of the Bourns 6639, .1 % of the travel, "
                 "which is four steps of the converter."),

@@ -44,8 +44,8 @@ class Trial:
     camera: str = "auto"
     without: tuple[str, ...] = ()
     on_stop: str = "abort"
-    """The rule that answers calls to the operator, in the words that `parse_policy` reads; the rule must not ask a
-    person.
+    """The rule that answers calls to the operator, as text for `parse_policy`. A rule that asks a person is not
+    allowed.
     """
     simulated_limit_s: float = SIMULATED_LIMIT_S
     cpu_limit_s: float = CPU_LIMIT_S
