@@ -217,8 +217,8 @@ def compare_trials(
     ],
     json: Json = False,
 ) -> int:
-    """Compare batches of trials with a first batch, world by world, to see how much a sensor, or an error of the
-    world, changes the success rate.
+    """Compare one or more batches of trials with the first batch, world by world, to see how much a sensor, or an
+    error of the world, changes the success rate.
 
     All batches must be of the same kind. Each comparison counts only the trials that are in both of its batches. `p`
     is the p-value of McNemar's exact test: the probability, if neither batch is better, that the pairs with different

@@ -127,7 +127,9 @@ NoKeep = Annotated[
     ),
 ]
 CALLED: Final = os.environ.get("HANDEYE_CALLED", "handeye")
-"""The name under which handeye was called, for sentences that suggest a command; run.py sets it."""
+"""The name by which the user called handeye. Sentences that suggest a command begin the command with this name.
+`run.py` sets the environment variable.
+"""
 
 
 class _Screen(Console):

@@ -75,7 +75,7 @@ def urdf(
     overwrite: Overwrite = False,
     json: Json = False,
 ) -> int:
-    """Write the arm to a URDF file, as the drawing of the arm describes it, and list the joints of the arm.
+    """Write the arm to a URDF file, with the dimensions of its drawing, and list the joints of the arm.
 
     Exit code 0: written; 2: bad input.
     """

@@ -51,9 +51,9 @@ def faults(
     checkpoints: Annotated[
         Path | None,
         Parameter(
-            help="Folder that keeps, for each world, one run without faults; a missing run is made first. A run "
-            "with a fault that begins at a later stage then starts from a checkpoint of the run without faults. By "
-            "default, each fault is tried in a whole run. The outcomes are the same either way."
+            help="Folder that keeps, for each world, one run without faults; a missing run is made first. If a "
+            "fault begins at a later stage, its run starts there, from a checkpoint of the run without faults. "
+            "Default: each fault is tried in a whole run. The outcomes are the same with and without this folder."
         ),
     ] = None,
     world: WorldOptions = ANY_WORLD,

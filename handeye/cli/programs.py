@@ -50,8 +50,8 @@ def script_at(given: Path, task_words: str | None) -> "tuple[Path, Task]":
 
 
 def plan_at(given: Path, task_words: str | None = None) -> Plan:
-    """The plan of a file or of a program. If `given` is a file, the file contains the plan, or a script that is
-    compiled. If there is no such file, `given` is the name of the program.
+    """The plan of a file or of a program. If `given` is a file, the file contains either a plan or a script; a script
+    is compiled. If there is no such file, `given` is the name of a program.
 
     Raises:
         InvalidInput: there is no such plan for the task.
@@ -82,8 +82,8 @@ def is_program(given: Path) -> bool:
 
 
 def _program(given: Path) -> "tuple[Path, Task] | None":
-    """The program with the given name; None if the text is a path. Raises NoSuchName if the text can only be a name,
-    and no program has this name.
+    """Return the program that has the name `given`, or None if `given` is a path. Raises NoSuchName if `given` can
+    only be a name, and no program has this name.
     """
     if not _is_name(given):
         return None

@@ -80,7 +80,7 @@ class PipedLines:
             yield line
 
     def come(self) -> str | None:
-        """Take a waiting line; None if there is none."""
+        """Take a waiting line. Returns None if no line is waiting."""
         try:
             line = self._lines.get_nowait()
         except Empty:

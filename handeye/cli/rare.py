@@ -209,7 +209,7 @@ def rare_trials(*, options: SampleOptions = ANY_SAMPLE) -> int:
     """Estimate how rarely a program stops, and how rarely it fails silently, by subset simulation.
 
     The worlds of the first level are made from seeds. Each further level is a sample of the worlds in which the
-    program comes closer to failing; about a tenth of the previous level's worlds are that close. The product of the
+    program comes at least as close to failing as in the worst tenth of the previous level's worlds. The product of the
     shares of all levels estimates the probability of the failure; the product is not a bound. Only a run in a world
     decides whether the program fails there.
 

@@ -108,7 +108,7 @@ def page_of(run: Path) -> bytes:
 
 
 def read_recorded(run: Path) -> "RecordedRun":
-    """The run in a folder or a trace, as far as it can be read; raises InvalidInput if there is none."""
+    """Read the run in a folder or a trace, as far as it is readable. Raises InvalidInput if there is no run."""
     from handeye.results.recorded_run import recorded_run
     from handeye.trace.reading import is_cut_short, read_trace
 

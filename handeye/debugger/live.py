@@ -34,8 +34,8 @@ class Pace(Observer):
     clock: Callable[[], float] = time.monotonic
     sleep: Callable[[float], None] = time.sleep
     _kept: tuple[float, float, float] | None = field(default=None, init=False)
-    """The factor that limits the pace, and the wall-clock time and cell time (s) at which the factor began to limit
-    the pace.
+    """The factor that limits the pace. Then two times (s) at which the factor began to limit the pace: wall-clock time
+    and cell time.
     """
 
     def __str__(self) -> str:

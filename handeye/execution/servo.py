@@ -34,8 +34,8 @@ class ServoPeriod(Record, frozen=True, kw_only=True):
 
     sensed: Sensed  # readings of all devices at its end
     effort: Array
-    """Commanded joint torques, shape (n,), N m (N if prismatic). The torques are zero while the brakes are set, and
-    for servos outside the computer.
+    """Commanded joint torques, shape (n,), N m (N if prismatic). The torques are zero while the brakes are set. If the
+    servos are outside the computer, the torques are always zero.
     """
     wrench: Array | None = None
     """Estimated force (N) of the hand on the world and moment (N m) about its tool centre point, in W, shape (6,). If
@@ -70,8 +70,8 @@ class Servo:
     _chain: tuple[ArmModel, ArmArithmetic] | None = field(default=None, init=False)
     _unseen: Array | None = field(default=None, init=False)
     """Difference (rad, m) in the last servo period between the motion of each joint and the motion that its rates
-    show. None unless the closing gap shows that an object has shifted in the fingers. Such a shift can move the hand
-    suddenly.
+    show. The value is set only if the closing gap shows that an object has shifted in the fingers; if not, it is None.
+    Such a shift can move the hand suddenly.
     """
 
     @property

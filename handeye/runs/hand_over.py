@@ -27,8 +27,8 @@ sinks by less than this distance.
 """
 TURNED: Final = 0.02  # rad by which the hand may be turned. Our choice.
 GAP_CHANGED: Final = 1e-3
-"""Change (m) of the gap up to which the hand still holds the same part. Our choice: a part that straightens between
-the fingers makes the gap up to .55 mm wider or narrower.
+"""Largest change (m) of the gap at which the hand still holds the same part. Our choice: a part that straightens
+between the fingers makes the gap up to .55 mm wider or narrower.
 """
 MOST_NAMES: Final = 200
 

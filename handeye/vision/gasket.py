@@ -45,9 +45,9 @@ the three values below are from the vision study, section 4.
 BESIDE: Final = 0.3 * INCH  # distance (m) from a hole's border to where the difference is measured
 BEFORE_STEP: Final = 0.38
 BRIGHT: Final = 0.65
-"""Both constants apply to the picture that was taken before the gasket was laid. In that picture, a step of intensity
-is a border if it exceeds BEFORE_STEP times the contrast, and a point belongs to the face if its intensity exceeds
-BRIGHT times that of the face.
+"""BEFORE_STEP and BRIGHT apply to the picture that was taken before the gasket was laid. In that picture, a step of
+intensity is a border if it exceeds BEFORE_STEP times the contrast. A point belongs to the face if its intensity
+exceeds BRIGHT times the intensity of the face.
 """
 ROUNDS: Final = 2  # searches for the base's largest hole, each starting from the previous one
 RAYS: Final = 32

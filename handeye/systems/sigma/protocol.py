@@ -26,8 +26,8 @@ _LINE: Final = (
     "X5", "Y5", "HAND5", "X6", "SCALE", "HAND6",
 )  # fmt: skip
 LINE_NUMBERS: Final = NUMBERS | {name: len(NUMBERS) + number for number, name in enumerate(_LINE)}
-"""The number that identifies each microcomputer of the assembly line: those of two SUPERSIGMAs, of the feeder (names
-that end in 5) and of the belt (names that end in 6).
+"""The number that identifies each microcomputer of the assembly line. The line has the microcomputers of two
+SUPERSIGMAs, of the feeder (names that end in 5) and of the belt (names that end in 6).
 """
 AXES: Final = ("X1", "Y1", "Z1", "X2", "Y2", "Z2")
 LINE_AXES: Final = (*AXES, "X3", "Y3", "Z3", "X4", "Y4", "Z4", "X5", "Y5", "X6")

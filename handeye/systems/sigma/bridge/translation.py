@@ -280,8 +280,8 @@ class _Translation:
         if isinstance(way, Unknown):
             self._refuse(
                 line,
-                "the line to which ON ABORT leads is not the same for all axes of this motion, or for all paths on "
-                "which the program reaches this line",
+                "ON ABORT leads to different lines for different axes of this motion, or on different paths to "
+                "this motion",
             )
             return []
         tested = _Draft(

@@ -147,8 +147,8 @@ def _hand() -> Iterator[DeviceFault]:
     yield _fault(
         f"{gap}.factor", "The gap reading is the true gap times this factor.", gap, GainEffect,
         replace(expected, harmless=(
-            "The switches feel parts between the fingers; if the gap reading is wrong by less than a tenth, the "
-            "fingers still hold a part equally well."
+            "The switches of the fingers still feel a part. If the gap reading is wrong by less than a tenth, the "
+            "fingers hold the part as firmly as with a correct reading."
         )),
         Size(unit="", usual=1.15, limits=(0.1, 5.0)),
     )  # fmt: skip
