@@ -124,7 +124,7 @@ class _Contacts:
     carried: bool
     """True if all pairs are allowed in long steps."""
     delicate: bool
-    """True if a pair is not allowed in middle steps."""
+    """True if at least one pair is not allowed in middle steps."""
     held: tuple[tuple[int, int], ...]
     """The free bodies that the hand carries, each with the index of its pose among the positions of the simulator.
     Empty if `carried` is false.

@@ -87,7 +87,7 @@ def mutant_trials(
 
 
 def _chosen(made: "list[Mutant]", only: list[str] | None) -> "list[Mutant]":
-    """The mutants whose names contain at least one text of `only`; all mutants if `only` has no text."""
+    """The mutants whose names contain at least one text of `only`; all mutants if `only` is None or empty."""
     for text in only or ():
         if not any(text in each.name for each in made):
             raise NoSuchName(f"no mutant has {quoted(text)} in its name; --list lists the mutants")

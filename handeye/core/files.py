@@ -192,7 +192,7 @@ class LineFile:
         """
         self.path = path
         self.unlocked = ""
-        """Why other processes cannot be kept from writing to the file; empty if the file is locked."""
+        """Why the file could not be locked, so that other processes can write to it; empty if the file is locked."""
         if path.exists() and not path.is_file():  # opening a pipe without a reader would wait for ever
             raise CannotWrite(f"{path} cannot be written: it is not a file")
         try:

@@ -157,8 +157,8 @@ class DriveState(MutableRecord, kw_only=True):
     """A jump of a reading since the last motion. None once a motion has reported it."""
     in_air: bool = False  # the last motion was a MOVE without contact
     clear: bool = True
-    """True if neither the hand nor an object in the hand should touch anything. This is the case after a MOVE or
-    CHANGE that was not meant to make contact and reached its end, until the hand grasps an object.
+    """True if neither the hand nor an object in the hand should touch anything. This state begins when a MOVE or CHANGE
+    that was not meant to make contact reaches its end, and ends when the hand grasps an object.
     """
     tare: Array = msgspec.field(default_factory=lambda: np.zeros(6))
     wrench: Array = msgspec.field(default_factory=lambda: np.zeros(6))

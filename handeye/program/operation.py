@@ -47,8 +47,8 @@ class Operation(
 ):
     """Base class of the operations. The class name in lower case is the tag in the plan file.
 
-    The default of a field always means that the operation lacks this property. Therefore, a plan without the field
-    keeps its meaning.
+    The default of a field always means that the operation lacks the property for which the field stands. So a plan
+    from which the field is missing keeps its meaning.
     """
 
     family: ClassVar[Family] = "other"

@@ -163,7 +163,8 @@ def _undecided(
         return problem("finding-undecided", message, span, notes=(f"not decided: {says}",))
     unknown = [program.steps[number] for number in first.unknown]
     message = (
-        f"it cannot be decided whether every path shows `{finding.finding}`: the program does not fix a place"
+        f"it cannot be decided whether every path shows `{finding.finding}`: the program does not fix a place on "
+        "the path"
     )
     return problem(
         "finding-undecided", message, _span(source, unknown[0]), text="where is the hand here?",

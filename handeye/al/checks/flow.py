@@ -300,8 +300,8 @@ Circles = Callable[[], list[set[int]]]
 
 
 def stale_rounds(graph: Graph) -> Iterator[StaleRound]:
-    """Yield the jumps that repeat the same round of a search or count, each with the step that restarts the search
-    or count. This step is None if the round contains no MOVE.
+    """Yield the jumps that repeat the same round of a search or count. Each jump comes with the step that restarts the
+    search or count, or with None if the round contains no MOVE.
     """
     circles = cache(graph.circles)  # asked for only where something looks wrong
     searches, moves = set(graph.which(Search)), set(graph.which(Move))

@@ -31,7 +31,7 @@ class LegStarted(SystemEvent, frozen=True, kw_only=True):
 
 
 class LegFinished(SystemEvent, frozen=True, kw_only=True):
-    """A leg has ended, its brakes are set, and its hand-over record is made."""
+    """A leg has ended, the brakes are set, and the hand-over record of the leg is made."""
 
     stage: str
     system: str

@@ -33,7 +33,7 @@ WITHOUT_LEG: Final = {
     "large holes of the gasket lie along X",
     ("put on the top", "TRIG"): f"{_TRIG_HAND}: the hub of the top is 2.2 in wide",
 }  # fmt: skip
-"""Why a stage that other languages can do has no leg in a language."""
+"""For a stage and a language: why the stage has no leg in this language, although other languages can do the stage."""
 _WORD: Final = re.compile(r"\s*(?:\w+:)?\s*(\w+)")  # of an instruction, after its label
 _REMARK: Final = re.compile(r"\s*(;|\*|\d+\s+REM\b)")
 
@@ -96,7 +96,7 @@ class TimedProgram(Record, frozen=True, kw_only=True):
 
 
 def programs(legs: Iterable[StageLeg]) -> dict[str, TimedProgram]:
-    """Plan the careful program and the programs of some legs, by file. Raises InvalidInput if one has errors."""
+    """Plan the careful program and the programs of some legs, by file. Raises InvalidInput if a program has errors."""
     found = {}
     for file in dict.fromkeys([CAREFUL, *(leg.file for leg in legs)]):
         entry, timer = entry_of_file(file)[0], HostTimer()

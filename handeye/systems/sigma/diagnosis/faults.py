@@ -255,8 +255,8 @@ def planted(name: str, seed: int | None = None) -> Planted:
 
 
 def variants(name: str) -> Iterator[tuple[str, Planted]]:
-    """Yield all variants of the fault called `name`, one for each place and kind. Yield a text with each variant that
-    names it, such as `dead.X1`. The usual variant comes first.
+    """Yield all variants of the fault called `name`, one for each place and kind. With each variant, yield a text that
+    names the variant, such as `dead.X1`. The usual variant comes first.
     """
     numbers: list[int] | None = []
     while numbers is not None:

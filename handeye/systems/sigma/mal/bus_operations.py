@@ -202,8 +202,8 @@ class BusOperations:
             raise Trap(f"NOTSTARTED: {what.to} has not begun to execute its command")
 
     def _compare(self, name: str, axis: str) -> None:
-        """Raise Trap if the count of a motor differs from the position to which the program has sent the motor. If the
-        counts differ, the motor's microcomputer missed or misread a command.
+        """Raise Trap if the count of a motor differs from the position to which the program has sent the motor. A
+        difference shows that the motor's microcomputer has missed or misread a command.
         """
         sent = self.memory.counts.get(axis, 0)
         count = protocol.signed(self.ask(name, protocol.position(axis)))

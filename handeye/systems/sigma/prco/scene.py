@@ -47,7 +47,7 @@ DRIVER_MASS: Final = 0.3  # kg, taken from the palm: both hands weigh the same
 
 
 def add_pump(spec: mujoco.MjSpec, pump: Pump) -> None:
-    """Add everything to the scene of the gantries."""
+    """Add the parts of a pump, their fixtures and the screwdriver to the scene of the gantries."""
     spec.option.enableflags |= int(mujoco.mjtEnableBit.mjENBL_DIAGEXACT)  # a thread under load needs it
     spec.option.impratio = 50
     add_styles(spec)
