@@ -69,8 +69,8 @@ UNKNOWN: Final = ExpectedDetection()  # no expectation stated
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SpoiledWork:
-    """Finished work that a fault spoils by itself, without a motion of the arm. If this happens after the program's
-    last step that senses this work, the program cannot notice the fault.
+    """Finished work that a fault spoils by itself, without a motion of the arm. If the fault spoils the work after the
+    program's last step that senses this work, the program cannot notice the fault.
     """
 
     findings: tuple[str, ...]  # beginnings of the names of the referee's findings on this work

@@ -35,8 +35,8 @@ class Edit(Place):
 
 
 def definition(document: Document, offset: int) -> list[Place]:
-    """Return the definitions of the name at an offset. A difference is defined by each of its SAVEs. A required file
-    is defined at its start.
+    """Return the definitions of the name at an offset. A difference is defined by each of its SAVEs. The definition of
+    a required file is the start of that file.
     """
     for file in required_by(document.text):
         key = key_of(file.text, own_key(document.source))

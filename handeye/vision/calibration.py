@@ -111,7 +111,7 @@ def calibrate(sightings: Sequence[Sighting], drawing: CameraModel) -> Calibratio
 
 
 def moved(drawing: CameraModel, x: Array) -> CameraModel:
-    """Change the parameters of the design by `x`, given in units of the priors."""
+    """Change the parameters of the design by `x`, given in standard deviations of the priors."""
     mount = np.array(drawing.mount) + x[:3] * PLACE_PRIOR
     lenses = tuple(
         replace(

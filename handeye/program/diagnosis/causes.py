@@ -81,7 +81,7 @@ class HandStuck(CauseRecord, frozen=True, kw_only=True):
 
 
 class GuardsUnmet(CauseRecord, frozen=True, kw_only=True):
-    """A motion ended, and none of these guards had tripped."""
+    """A motion ended, although none of its `guards` had tripped."""
 
     guards: tuple[GuardKind, ...]
 

@@ -51,8 +51,8 @@ class Meshes:
         return self._added(pieces, _coarse(pieces))
 
     def number_of_parts(self, pieces: Sequence[Piece]) -> int:
-        """Return the number of a body's mesh, as `number` does. Here the user can click on the named pieces of the
-        body. Pieces with the same name are stored together.
+        """Return the number of a body's mesh, as `number` does. In this mesh, the user can click on the named pieces
+        of the body. Pieces with the same name are stored together.
         """
         number = self._added(pieces, ())
         first, _ = self.told[number]["fine"]

@@ -81,7 +81,7 @@ class Campaign:
     _points: tuple[Point, ...] = ()
 
     def first(self) -> tuple[RareRow, ...]:
-        """Run the worlds of level 0: the worlds of the seeds that follow the first seed."""
+        """Run the worlds of level 0. Their seeds are consecutive numbers that begin with the trial's seed."""
         if not self._first:
             seeds = range(self.trial.world.seed, self.trial.world.seed + self.runs)
             self._points = tuple(map(self.space.seeded, seeds))

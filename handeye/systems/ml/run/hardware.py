@@ -116,4 +116,4 @@ class StationTask(AnyTask):
 
     @abstractmethod
     def hardware(self, plan: MlPlan, world: WorldSpec, tell: Tell) -> Hardware:
-        """Open the station of a plan in a world."""
+        """Build the station of a plan in a world, and return its hardware."""

@@ -165,8 +165,8 @@ def _distinct(steps: Iterable[Step]) -> int:
 
 
 def _lines(stage: str, file: str) -> int:
-    """Count the lines that a stage executes in the arm language, each line of a macro once, or the lines of another
-    program that are neither blank nor remarks.
+    """Count the lines of a stage's program. In the arm language, count the lines that the stage executes, and each
+    line of a macro once. In any other language, count the lines that are neither blank nor remarks.
     """
     if file == CAREFUL:
         program, _ = own_program(TASK)

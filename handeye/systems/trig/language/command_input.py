@@ -103,7 +103,7 @@ class Script(Desk):
         halted: Halted = lambda: False,
         slip: Callable[[int], float] = lambda _: 0.0,
     ) -> None:
-        """Read these lines. `slip` returns the teaching error (m) of a jog of X, Y or Z; its argument is the
+        """Prepare to read `lines`. `slip` returns the teaching error (m) of a jog of X, Y or Z; its argument is the
         number of such jogs that came before.
         """
         self._lines, self._halted = enumerate(lines, 1), halted

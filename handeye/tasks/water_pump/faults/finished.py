@@ -76,8 +76,8 @@ def _jam(scene: Scene, _: MishapState) -> bool:
 
 
 def _stop(angle: float) -> Mishap:
-    """Return a mishap in which the rotor meets a stop at an angle (rad) from the rotor's present position. The stop is
-    only on one side.
+    """Return a mishap in which the rotor meets a stop at an angle (rad) from the rotor's present position. In the
+    other direction, the rotor can still turn freely.
     """
 
     def act(scene: Scene, _: MishapState) -> bool:
