@@ -75,10 +75,9 @@ def begin(
             current place.
         vision: functions in place of handeye's own vision, by instruction, such as `{"SPECIFIC": my_function}`.
             Pictures are arrays of shape (256, 333) with values from 0 to 15. `view` is the calibrated camera, in the
-            position in
-            which it took the picture: `view.project(points)` and `view.back_project(uv, z)` convert between points in
-            W (m) and picture points. `part` is the drawing of the part: its planned place `at`, the height of its
-            `face`, and its `holes`.
+            position in which it took the picture: `view.project(points)` and `view.back_project(uv, z)` convert
+            between points in W (m) and picture points. `part` is the drawing of the part: its planned place `at`, the
+            height of its `face`, and its `holes`.
             `GENERAL`: (picture, view, part) returns the place (x, y) of the part's reference point in W, in m.
             `SPECIFIC`: (picture, view, part, (x, y)) returns the part's pose (x, y, yaw), in m and rad; the last
             argument is the place that `GENERAL` found. Both return None if they do not find the part.

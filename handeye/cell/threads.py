@@ -176,7 +176,7 @@ class Threads(Mechanism[ThreadsState]):
         self._couple(speed)
 
     def _attract(self) -> None:
-        """Apply the force of the bit's magnet if it is on."""
+        """Apply the force of the bit's magnet if the magnet is on."""
         self._data.ctrl[self._magnet] = self._lines.carried("magnet", float(self._driver.magnet))
 
     def state(self) -> ThreadsState:

@@ -186,7 +186,7 @@ def _too_many(name: str, choices: Sequence[str]) -> bool:
 
 
 def _distance(a: str, b: str, farthest: int) -> int:
-    """Return the edit distance of two words. Swapping two neighbouring characters counts as one edit
+    """Return the edit distance between two words. Swapping two neighbouring characters counts as one edit
     (Damerau-Levenshtein). A distance greater than `farthest` may be returned as any number greater than `farthest`.
     """
     if abs(len(a) - len(b)) > farthest:

@@ -1,6 +1,7 @@
 """The jobs of the environments: where each episode starts, and what the referee requires at its end.
 
-This module has the jobs of tasks with planned programs. The other systems name their jobs in their entries.
+This module has the jobs of tasks with planned programs. Systems without planned programs name their jobs in their
+entries.
 """
 
 from collections.abc import Mapping

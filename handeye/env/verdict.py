@@ -73,8 +73,8 @@ def verdict(job: Job, runner: Runner, *, done: bool, stopped: str = "") -> Verdi
 
 
 def _required(job: Job, runner: Runner) -> dict[str, Finding]:
-    """Return the findings that the job requires. A cell that cannot be measured has no findings, so its work is never
-    right.
+    """Return the findings that the job requires. A cell that cannot be measured has no findings, so the work in the
+    cell is never right.
     """
     try:
         every = findings_so_far(runner)

@@ -1,4 +1,4 @@
-"""Links the thread that executes a run with the server: lines for the run, and messages from the run."""
+"""Passes lines from the server to the thread that executes a run, and messages from this thread to the server."""
 
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager

@@ -50,8 +50,8 @@ def check_restores(lowered: Lowered, graph: Graph) -> Iterator[Diagnostic]:
 
 
 def _follows(graph: Graph, move: int, name: str) -> bool:
-    """Return True if the difference `name` is saved after this MOVE and before the next one, so relative to the goal
-    of this MOVE.
+    """Return True if the difference `name` is saved after this MOVE and before the next MOVE. The difference is then
+    relative to the goal of this MOVE.
     """
     seen: set[int] = set()
     waiting = list(graph.onward[move])

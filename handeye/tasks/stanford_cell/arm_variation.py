@@ -49,7 +49,9 @@ def group(
     least: float = -np.inf,
     greatest: float = np.inf,
 ) -> Iterator[Quantity]:
-    """Yield quantities that share a source. Quantities that are magnitudes, such as noise, cannot be negative."""
+    """Yield quantities whose figures come from the same source. Quantities that are magnitudes, such as noise, cannot
+    be negative.
+    """
     units = [unit] * len(components) if isinstance(unit, str) else unit
     nominals = np.broadcast_to(nominal, len(components))
     for (name, distribution), its, middle in zip(components.items(), units, nominals, strict=True):

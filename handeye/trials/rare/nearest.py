@@ -38,8 +38,8 @@ class NearWorld(Record, frozen=True, kw_only=True):
 
 
 class Push(Record, frozen=True, kw_only=True):
-    """The mean deviations of one quantity in failing worlds, in standard deviations. They show how the quantity pushes
-    the program to fail.
+    """The mean deviations of one quantity in failing worlds, in standard deviations. These mean deviations show how
+    the quantity pushes the program to fail.
     """
 
     quantity: str

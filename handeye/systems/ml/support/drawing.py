@@ -138,7 +138,7 @@ def mm(x: float, y: float) -> Place:
 
 
 def row(places: tuple[tuple[int, int], tuple[int, int]], number: int) -> tuple[int, int]:
-    """Return one of the places in a row. All neighbours in the row have the same distance."""
+    """Return one of the places in a row. The distance between neighbours is the same along the whole row."""
     (x, y), (dx, dy) = places
     return x + number * dx, y + number * dy
 
