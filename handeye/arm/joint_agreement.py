@@ -228,9 +228,9 @@ def jumped(
     """Find the joint whose potentiometer moved, in a servo period, by a distance that does not agree with the rates
     before and after this period. Returns None if all agree.
 
-    A reading that jumps is detected at once, whatever the arm does. `blow` are the changes of rate that a blow on the
-    hand may have caused within the period (see `blown`). `throw` is how far an object that shifted in the fingers may
-    have moved the joints (see `thrown`). All arrays have shape (n,).
+    A reading that jumps is detected at once, whatever the arm does. `blow` gives the changes of rate that a blow on
+    the hand may have caused within the period (see `blown`). `throw` is how far an object that shifted in the fingers
+    may have moved the joints (see `thrown`). All arrays have shape (n,).
     """
     half, change = arm.servo.period / 2, np.abs(after - before)
     gone = (before + after) * half
@@ -266,7 +266,8 @@ def thrown(M: Array, work: float, period: float) -> Array:
     """Return how far each joint, shape (n,), can move within a servo period (s) if `work` (J) is done on the hand.
 
     An object that shifts in the fingers lets them close, and the work of the fingers throws the hand. The object may
-    stop the hand again within the period, so afterwards neither rate nor momentum shows the throw. At most, all work
-    becomes motion of one joint, at the beginning of the period. `M` is the mass matrix, shape (n, n).
+    stop the hand again within the period, so afterwards neither rate nor momentum shows the throw. A joint moves
+    farthest if all the work becomes motion of this joint, at the beginning of the period. `M` is the mass matrix,
+    shape (n, n).
     """
     return np.asarray(period * np.sqrt(2 * work * np.linalg.inv(M).diagonal()))

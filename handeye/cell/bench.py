@@ -99,7 +99,7 @@ class Bench(Clock, Mechanism[BenchTime]):
         return self._steps * self._tick.numerator / self._tick.denominator
 
     def set_to_zero(self) -> None:
-        """Set the clock to 0 now, because the program begins. The time until each pending event stays the same."""
+        """Set the clock to 0, because the program begins now. The time until each pending event stays the same."""
         due = [(self._step_of(each) - self._steps) * self.tick * MICROSECONDS for each in self._due]
         self._due = [replace(was, microseconds=int(at)) for was, at in zip(self._due, due, strict=True)]
         self._steps, self.data.time = 0, 0.0

@@ -83,7 +83,7 @@ class SimulatedCell(Clock, SnapshotCell):
         return float(self._data.time)
 
     def set_to_zero(self) -> None:
-        """Set the clock to 0 now, because the program begins."""
+        """Set the clock to 0, because the program begins now."""
         self._data.time = 0.0
 
     def begin_stage(self, number: int) -> None:

@@ -26,7 +26,7 @@ def stage_index(text: str, stages: Sequence[str]) -> int:
 
 def stage_called(text: str, stages: Sequence[str]) -> int | None:
     """Find the only stage called `text`; or else, the only stage whose name begins with it; or else, the only stage
-    whose name contains it. Returns the index of the stage, or None if there is none.
+    whose name contains it. Returns the index of the stage, or None if no stage fits.
     """
     wanted = text.strip().casefold()
     names = [name.casefold() for name in stages]

@@ -168,7 +168,7 @@ def as_before(gap: float, kept: float, closer: float = SKEW, wider: float = SAME
 
 
 def too_early(gap: float, kept: float) -> bool:
-    """Return True if closing fingers touch at a much wider gap (m) than in the earlier hold. The object then does not
-    lie in the middle of the hand.
+    """Return True if a finger touches an object at a gap (m) that is much wider than the gap at which the hand held
+    the object before. The object then does not lie in the middle of the hand.
     """
     return gap - kept > 2 * OFF_MIDDLE

@@ -48,8 +48,8 @@ def webp(frames: Frames, held: int) -> bytes:
 def settled(frames: Frames) -> Frames:
     """Yield frames in which a block of pixels changes only if it differs enough from the block that is shown.
 
-    libwebp leaves out blocks that resemble the blocks of the frame before. Without this function, slow changes would
-    never be shown.
+        libwebp leaves out blocks that resemble the blocks of the previous frame. Without this function, slow changes
+    would never be shown.
     """
     shown = next(frames)
     yield shown

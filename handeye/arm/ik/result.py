@@ -1,4 +1,4 @@
-"""Results of inverse kinematics, and the choice between solutions: of those within the limits, the one that the arm
+"""Results of inverse kinematics. Of the solutions within the joint limits, this module chooses the one that the arm
 reaches soonest.
 """
 

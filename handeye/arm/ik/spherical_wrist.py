@@ -40,8 +40,9 @@ def _check(arm: ArmModel) -> None:
 
 
 def branches(arm: ArmModel, X_WT: Pose, start: Array | None) -> tuple[Array, NDArray[np.bool_]]:
-    """Return four branches: the shoulder on the positive side, then on the negative side, each with the wrist not
-    flipped and flipped. No branch exists where the wrist would be nearer to axis 1 than the offset d2 allows.
+    """Return four branches: two with the shoulder on the positive side, then two with the shoulder on the negative
+    side. In each pair, the wrist is first not flipped, then flipped. No branch exists where the wrist would be nearer
+    to axis 1 than the offset d2 allows.
     """
     _check(arm)
     X_BT = inverse(arm.X_WB) @ np.asarray(X_WT, dtype=np.float64)

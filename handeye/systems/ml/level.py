@@ -176,10 +176,10 @@ class Level(ABC):
 
     @abstractmethod
     def analog_out(self, point: int, value: int) -> None:
-        """Set an analog output. Raises MlError: M11 if there is no such output, M15 while the pump is on."""
+        """Set an analog output. Raises MlError: M11 if there is no such output, and M15 while the pump is on."""
 
     @abstractmethod
     def digital_out(self, word: int, value: int, mask: int) -> None:
         """In a digital output word, replace each bit for which `mask` has a 1 by the same bit of `value`. Raises
-        MlError: M11 if there is no such word, M15 while the pump is on.
+        MlError: M11 if there is no such word, and M15 while the pump is on.
         """

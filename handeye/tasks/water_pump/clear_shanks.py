@@ -2,9 +2,9 @@
 
 A screw passes through gasket and top with .7 mm of play. The simulator does not know of this play, so it compares each
 shank with the twelve wedges around each hole. These comparisons take a fifth of the computing time of a clamped stack,
-and find nothing. Welds hold clamped layers to within some micrometres. If a shank is clear of both holes at the
-beginning of a servo period, it therefore touches neither hole during that period. Leaving the shank out changes no
-number of the simulation.
+and find nothing. Clamped layers are held by welds, and move by some micrometres at most. If a shank is clear of both
+holes at the beginning of a servo period, it therefore touches neither hole during that period. Leaving the shank out
+changes no number of the simulation.
 """
 
 from typing import Final

@@ -222,7 +222,7 @@ def _compare(row: list[int], base: int, was: Sequence[int], now: Sequence[int]) 
 
 
 class _Source(ABC):
-    """A table, with what it contained before."""
+    """A table and its earlier contents."""
 
     @abstractmethod
     def look(self, row: list[int]) -> None:

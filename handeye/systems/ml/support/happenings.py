@@ -51,7 +51,7 @@ class ScrewReported(SystemEvent, frozen=True, kw_only=True):
 
 
 def reported(line: str, time: float) -> ScrewReported | None:
-    """Return the report of a screw in a printed line, or None if there is none."""
+    """Return the report of a screw in a printed line, or None if the line contains no such report."""
     words = [*map(int, line.split()), 0, 0, 0, 0]
     if words[0] not in FOUND:
         return None

@@ -1,9 +1,9 @@
 """The machine on the test bench, and what a technician can do to it by hand. The machine is ideal except for a planted
 fault.
 
-Rotors follow each pulse, unless the fault weakens their motors. In that case, a balance of forces decides whether the
-rotors follow. A wrist senses loads, the swing of its hand when a motor starts, and the push of the fingers when they
-close on a block.
+Rotors follow each pulse, unless the fault weakens their motors. For weakened motors, a balance of forces decides
+whether the rotors follow. A wrist senses loads, the swing of its hand when a motor starts, and the push of the fingers
+when they close on a block.
 """
 
 import math
