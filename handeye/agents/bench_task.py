@@ -170,8 +170,8 @@ class BenchTask(msgspec.Struct, frozen=True, kw_only=True, dict=True):
 
     def problems(self, folder: Path) -> list[tuple[bool, str]]:
         """Try the solution in a folder in every order of its tasks, and return its problems, the worst first. Each
-        problem is a pair: True if the program does not notice the problem, and a sentence. Raises InvalidInput if
-        there is no solution, or if it has errors.
+        problem is a pair: a flag, which is True if the program does not notice the problem, and a sentence that
+        describes the problem. Raises InvalidInput if there is no solution, or if it has errors.
         """
         text = self._checked(AgentFolder(folder.resolve()))
         entry, _ = entry_of_file(self.program)

@@ -108,8 +108,8 @@ def _shortened(lines: list[str], most: int = 16) -> list[str]:
 
 @cache
 def example(code: str) -> tuple[Source, Diagnostic | None]:
-    """Return the example of a code, and the diagnostic that the example causes. In place of the diagnostic, return
-    None if the example alone does not cause such a diagnostic.
+    """Return the example of a code, and the diagnostic that the example causes. The second value is None if the
+    example alone causes no diagnostic with this code.
     """
     source = sewn_of(Source(name="example.al", text=CODES[code].example), CODES[code].required)
     program, found = compile_text(source, SAMPLE)
@@ -222,7 +222,7 @@ REMEDIES: Final[dict[int, Remedy]] = {
     errors.SWITCH_WRONG: Remedy(
         "A switch that is closed while its finger touches nothing is stuck. If a switch stays open while the "
         "fingers press on a part, either the switch is stuck or the motor of the fingers is weak. The reports of "
-        "such a switch are worthless. Either do not test for the error, or test for it and call the operator with "
+        "such a switch are worthless. Either do not test for this error, or test for it and call the operator with "
         "a WAIT.",
         'OPEN 1\nSKIPN 50 ;both switches are open\nWAIT "SEE TO THE FINGER SWITCHES"\nMOVE P\nCLOSE .1',
     ),

@@ -101,7 +101,9 @@ class Agenda(MutableRecord, Generic[Time], kw_only=True):
         return None
 
     def sleep(self, task: str, duration: Time) -> None:
-        """Let a task continue `duration` after the time at which it was due, even if it continued late."""
+        """Make a task due again: its next time is `duration` after the time at which it was last due, even if it
+        continued later than that time.
+        """
         time, again = self.due[task]
         if duration < 0:
             raise BadArgument(f"{task} cannot wait for a negative time")

@@ -243,8 +243,8 @@ class Servo:
     def _jumped(self, tau: Array | None, before: Sensed, after: Sensed) -> Disagreement | None:
         """Find a potentiometer whose reading jumped in a servo period with torques `tau`, or under the brakes if `tau`
         is None. A blow on the hand also changes readings suddenly. Such a blow is recognised by the readings of the
-        other joints, and is not taken for a jump. Nor is the blow of an object that shifts in the fingers: the closing
-        gap shows such a blow.
+        other joints, and is not taken for a jump. The blow of an object that shifts in the fingers is not taken for a
+        jump either, because the closing gap shows such a blow.
         """
         moved, work = after.q - before.q, self._work(before, after)
         self._unseen = moved - (before.qd + after.qd) * (self.period / 2) if work else None

@@ -280,8 +280,8 @@ class ServoLoop(Servo):
         The force on the hand is computed from the rates, so a tachometer that scatters would be felt as a force. If
         the joints slide unevenly, the arm therefore also holds still without dither, and the rates are checked.
 
-        If the reading of a potentiometer jumps meanwhile, the motion ends at once: the servo would drive the joint
-        towards a place where it does not stand.
+        If the reading of a potentiometer jumps meanwhile, the motion ends at once, because the servo would follow the
+        wrong reading and move the joint.
         """
         uneven = yield from self._taring()
         scatter = (yield from self._resting()) if uneven else None

@@ -38,8 +38,8 @@ class NearWorld(Record, frozen=True, kw_only=True):
 
 
 class Push(Record, frozen=True, kw_only=True):
-    """The mean deviations of one quantity in failing worlds, in standard deviations. These mean deviations show how
-    the quantity pushes the program to fail.
+    """How far one quantity lies, on average, from its middle value in failing worlds, in standard deviations. The
+    signs tell whether the program fails mostly at greater or at smaller values of this quantity.
     """
 
     quantity: str

@@ -28,7 +28,7 @@ _USUAL: Final = 1.0  # margin of a run in which nothing limits the program
 
 
 class RareCase(Case, frozen=True, kw_only=True):
-    """A run in a world of its own."""
+    """A run in a world that no other run has."""
 
     world: WorldSpec
 
@@ -92,8 +92,8 @@ class Usual:
 
 
 def usual(rows: Sequence[RareRow]) -> Usual:
-    """Return the reserves that the runs of a first level usually have left. A part is omitted if at least half of the
-    runs have nothing left of it: such a part does not show how close a run was to failing.
+    """Return the reserves that the runs of a first level usually have left. A reserve is omitted if at least half of
+    the runs have nothing left of it: such a reserve does not show how close a run was to failing.
     """
     judged = [limits_left(row.result.referee) for row in rows if row.result is not None]
     return Usual(program=_medians([row.left for row in rows]), referee=_medians(judged))
