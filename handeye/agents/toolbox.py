@@ -149,7 +149,7 @@ class Toolbox:
         return replies.on_result(name, result)
 
     def submit(self, asked: requests.Submit, call: Call) -> Reply:
-        """Run a program in several worlds, and let the referee judge each."""
+        """Run a program in several worlds, and let the referee judge each run."""
         plan = self.scripts.plan(asked.script, asked.taught, asked.task)
         seeds = range(asked.seed, asked.seed + asked.worlds)
         found: list[Verdict] = []

@@ -25,7 +25,7 @@ def breakpoint(text: str, listing: Listing) -> AnyStop:
     """Return the breakpoint that a text names. Raises InvalidInput if there is no such place, or if no step can
     raise that error.
 
-    The text names an error, such as `error:23`, a label, or a stage (by its name or a part of the name). A line of the
+    The text names an error (`error:23`), a label, or a stage (by its name or a part of the name). A line of the
     source, such as `12` or `pins.al:3`, means the first step on the line or after it. An instruction word means every
     step that begins with that word.
     """

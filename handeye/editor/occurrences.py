@@ -25,7 +25,7 @@ _MAKES: Final = {
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Occurrence:
-    """An occurrence of a name. Equal names of different kinds are different names."""
+    """An occurrence of a name. Names that are spelled alike but are of different kinds count as different names."""
 
     kind: str
     name: str

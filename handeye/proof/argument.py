@@ -73,7 +73,7 @@ def said_of(says: str, claims: Sequence[ClaimProof]) -> str:
 
 
 def _passed(claim: ClaimProof, program: Program) -> str:
-    """Write, for each phase of a claim, the lines of which every path passes one."""
+    """Write the lines of a claim, phase by phase. Every path passes one of the lines of each phase."""
     said = []
     for step, steps in zip(claim.passed, claim.phases, strict=True):
         lines = list(dict.fromkeys(_line(program, number) for number in (steps if step is None else [step])))

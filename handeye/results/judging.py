@@ -38,8 +38,8 @@ def findings_so_far(runner: Runner) -> Findings:
 
 
 def findings_after(runner: Runner, done: int) -> Findings:
-    """Return those findings of the task's referee on the present state of the work that must hold after `done` stages
-    of the task's own program.
+    """Return the findings of the task's referee on the present state of the work, but only those findings that must
+    hold after `done` stages of the task's own program.
     """
     task = runner.task
     found = {

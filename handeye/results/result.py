@@ -247,8 +247,8 @@ def restore_figures(findings: Any) -> None:
 
 
 def told_limits(result: Result) -> tuple[str, ...]:
-    """Return the limits that the calling program set. If the referee measured the quantity of a limit, the limit has
-    the quantity and its unit with it.
+    """Return the limits that the calling program set. If the referee measured the quantity of a limit, the text of
+    this limit also gives the quantity and its unit.
     """
     checks = {**result.referee, **(result.built or {})}
     return tuple(

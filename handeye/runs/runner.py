@@ -216,7 +216,7 @@ class Runner:
 
     @property
     def between_stages(self) -> bool:
-        """True if no stage is in progress and another one follows."""
+        """True if no stage is in progress and a further stage follows."""
         return self.stage is None and self.at is not None
 
     @property

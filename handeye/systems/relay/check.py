@@ -76,7 +76,7 @@ def misfits(plan: RelayPlan) -> Iterator[LegFinding]:
 
 
 def inexpressible(plan: RelayPlan) -> Iterator[LegFinding]:
-    """Yield lines of the task's own program, for each leg: the lines in the stage of the leg whose operations the
+    """For each leg, yield lines of the task's own program in the stage of the leg: the lines whose operations the
     language of the leg cannot express. Stages are compared by name.
     """
     program, file = own_program(plan.task)

@@ -109,8 +109,8 @@ def programs(legs: Iterable[StageLeg]) -> dict[str, TimedProgram]:
 
 
 def relay_of(leg: StageLeg, known: Mapping[str, TimedProgram]) -> RelayPlan:
-    """Return a relay in which the careful program does all stages before that of the leg, and then the leg does its
-    stage. `known` has the programs by file.
+    """Return a relay in which the careful program does all stages before the stage of `leg`. The program of `leg` then
+    does this stage. `known` has the programs by file.
     """
     before = stages()[: stages().index(leg.stage)]
     done = [*((stage, CAREFUL) for stage in before), (leg.stage, leg.file)]
@@ -160,7 +160,7 @@ def _word(step: Step) -> str:
 
 
 def _distinct(steps: Iterable[Step]) -> int:
-    """Count the lines of some steps, and each line of a macro once."""
+    """Count the lines of some steps. A line of a macro counts only once."""
     return len({(step.file, step.line) for step in steps})
 
 

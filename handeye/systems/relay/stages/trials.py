@@ -1,5 +1,5 @@
 """Trials of stages: in each world, the careful program builds the pump up to a stage. Then a program in each language
-does this stage, from the same state, and the referee judges the pump as it is then.
+does this stage, from the same state, and the referee judges the pump as it is after this stage.
 """
 
 from collections import Counter

@@ -68,7 +68,7 @@ Moment = Literal["taught", "turned", "now"]  # just taught, about to be reversed
 
 
 class TaughtPlan(Record, frozen=True, kw_only=True):
-    """A job with its script. Each world teaches the script with different errors."""
+    """A job with its script. In each world, the script is taught with different errors."""
 
     job: JobName
     script: str
