@@ -168,7 +168,7 @@ def put(answer: bytes) -> None:
 
 
 def put_line(text: str) -> None:
-    """Write one line of an answer for a program."""
+    """Write one line of the JSON answers that another program reads."""
     put(f"{text}\n".encode())
 
 

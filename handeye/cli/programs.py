@@ -77,7 +77,9 @@ def plan_or_own(given: Path | None, task_words: str | None) -> Plan:
 
 
 def is_program(given: Path) -> bool:
-    """True if a name is that of a program, False if it is that of a file; raises NoSuchName if it is neither."""
+    """Return True if `given` is the name of a program, and False if it is the path of a file. Raises NoSuchName if no
+    program and no file has this name.
+    """
     return not given.is_file() and _program(given) is not None
 
 

@@ -106,7 +106,7 @@ def stages(
 
 
 def _chosen(names: Sequence[str] | None, languages: Sequence[str] | None) -> "list[StageLeg]":
-    """Return the legs that do the named stages in the named languages. Raises InvalidInput if a stage has no such leg."""
+    """Return the legs that do the named stages in the named languages. Raises InvalidInput if a stage has no leg."""
     from handeye.systems.relay.stages.languages import WITHOUT_LEG, shared, stage_legs, stage_named
 
     found = []
