@@ -150,8 +150,8 @@ class First:
     period: int | None = None  # servo period of the step, counted from 1; None outside servo periods
     differing: QuantityDifference
     next: tuple[AnyEvent | None, AnyEvent | None] = (None, None)
-    """The next event of each run, if these events differ. None for a run that ended, or for a run whose step
-    continued.
+    """The next event of each run, if the first difference is one of events. None for a run that has ended, or whose
+    step continues with a servo period.
     """
 
     @property

@@ -29,7 +29,7 @@ from handeye.trials.sweep import Case, Sweep, TrialRow
 Outcome = Literal["recovered", "stopped", "misnamed", "unnoticed", "unbraked", "silent"]
 """The outcome of a run with a fault.
 
-- recovered: the work is right, and the fault may remain unnoticed
+- recovered: the work is right, and the program need not notice the fault
 - stopped: by an error that names the fault, in a correct stage, and with the brakes on
 - misnamed: stopped, but by another error or in another stage
 - unnoticed: the work is right, but the fault should have been noticed
@@ -139,8 +139,8 @@ class FaultWork:
     faults: Mapping[str, Fault]
     camera: str
     sound: Path | None = None
-    """Folder of the fault-free runs. If a fault begins with a later stage, the run with this fault starts from a
-    checkpoint of a fault-free run. If the folder is None, every run starts at its beginning.
+    """Folder of the fault-free runs. If a fault begins with a stage after the first, the run with this fault starts
+    from a checkpoint of a fault-free run. If the folder is None, every run starts at its beginning.
     """
 
     def __call__(self, case: Case) -> list[FaultRow]:

@@ -41,8 +41,8 @@ not check the limit.
 """
 _CAME_TO_AN_END: Final = ("ended", "not built")
 _OF_THE_MACHINE: Final = ("machine", "killed", "processor limit", "wall limit")
-"""The ways in which this computer, and not the program, ends a trial. If such a trial is repeated, it may end
-differently.
+"""The ways in which this computer, and not the program, ends a trial. A trial that this computer ended may end
+differently when it is repeated.
 """
 _BROKEN_OFF: Final[Mapping[str, str]] = {
     "killed": "its process was killed twice",
@@ -200,7 +200,8 @@ class Sweep(Generic[R]):
     """Further entries for the JSON."""
     details: Callable[[Sequence[R]], Sequence[Details]] = field(default=lambda _: ())
     work: "Callable[[Case], Sequence[R]] | None" = None
-    """Executes the trials of a case, if this kind has no options. A kind without options needs no command of its own.
+    """The function that executes the trials of a case, if trials of this kind have no options. A kind without options
+    needs no command of its own.
     """
     shared_worlds: bool = False
     """True if several trials share a world. The number of a trial then does not determine the seed of its world."""
@@ -211,8 +212,8 @@ class Sweep(Generic[R]):
 
 
 Work = Callable[[Case], Sequence[R]]
-"""Executes the trials of a case. The function is sent to other processes. If it raises an exception, the exception is
-recorded as the end of the trials.
+"""A function that executes the trials of a case. The function is sent to other processes. If the function raises an
+exception, the exception is recorded as the end of the trials.
 """
 
 
