@@ -342,7 +342,7 @@ def _lift(run: ExecutionContext, entry: int) -> UndoFailure | None:
 
 
 def _met(run: ExecutionContext, outcome: Outcome, meeting: EarlyContact | None = None) -> UndoFailure | None:
-    """Return the failure if a motion ends the reversal, or None if the reversal goes on."""
+    """Return the failure if a motion of the reversal failed, or None if the reversal can go on."""
     if outcome.error is not None:
         return UndoFailure(error=outcome.error, cause=outcome.cause)
     if outcome.trip is None:

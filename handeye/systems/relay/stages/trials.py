@@ -172,7 +172,9 @@ class PairLine(Record, frozen=True, kw_only=True):
 
 
 def _tried(rows: Sequence[StageRow]) -> Iterator[list[StageRow]]:
-    """Yield the rows of each stage and language, without the worlds in which the careful program stopped earlier."""
+    """Yield the rows of each stage and language. Leave out the worlds in which the careful program stopped before the
+    stage.
+    """
     for condition in dict.fromkeys(row.condition for row in rows):
         mine = [row for row in rows if row.condition == condition and row.result != NOT_REACHED]
         if mine:

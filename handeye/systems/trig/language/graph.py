@@ -28,7 +28,7 @@ TOP_NAME: Final = "**TOP**"
 
 @dataclass(slots=True, kw_only=True, eq=False)
 class Node:
-    """One step. Only the methods of `Graph` change the edges of a node."""
+    """A step of the program, as a node of the graph. Only the methods of `Graph` change the edges of a node."""
 
     id: int
     type: NodeType
