@@ -167,7 +167,7 @@ def names_sentence(names: SimilarName | KnownNames | None) -> str | None:
 
 
 def nearest(name: str, known: Iterable[str], farthest: int) -> str | None:
-    """Find a known name that looks the same as `name`. If there is none, find the known name at the least edit
+    """Find a known name that looks the same as `name`. If there is no such name, find the known name at the least edit
     distance from `name`. Returns None if that distance is greater than `farthest`.
     """
     choices = sorted(set(known))

@@ -166,7 +166,7 @@ class Contact(Record, frozen=True, kw_only=True):
 
 
 class HeightWithin(Evidence, frozen=True, kw_only=True):
-    """A HEIGHT after a contact, measured from the height of another contact. The range (m) of the HEIGHT lies within
+    """A HEIGHT after a contact. HEIGHT measures from the height of another contact, and its range (m) lies within
     limits.
     """
 

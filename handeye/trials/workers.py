@@ -27,7 +27,7 @@ SHORTEST_LIMIT_S: Final = 1e-6  # Shortest limit that a system distinguishes fro
 
 
 class WorkerLost(HandeyeError):
-    """Raised if the process of a trial was killed, and killed again when the trial was repeated."""
+    """Raised if the process of a trial was killed, and if the process of the repeated trial was killed too."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -122,7 +122,9 @@ def _numbers(name: str, given: object, what: str, count: int) -> tuple[float, ..
 
 
 def _outline(view: View, part: Part, place: tuple[float, float]) -> Array:
-    """Return the corners (u, v) of the part's outline at a place, within the picture, shape (8, 2)."""
+    """Return the corners (u, v) of the part's outline at a place, shape (8, 2). Corners outside the picture are moved
+    to its border.
+    """
     if part.outline is None:
         raise BadArgument("vision needs the outline of a part, but the program gives none")
     (points,) = silhouettes(view, part, place, np.zeros(1))

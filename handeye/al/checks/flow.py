@@ -41,7 +41,8 @@ def check_flow(graph: Graph, origins: Sequence[Statement]) -> list[Diagnostic]:
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Order:
     """A rule for the order of operations: an operation of the kind `of` makes sense only after an operation of the
-    kind `needs`. If `later` is True, it makes sense only before an operation of the kind `needs`.
+    kind `needs`. If `later` is True, the operation of the kind `of` makes sense only before an operation of the kind
+    `needs`.
     """
 
     code: str

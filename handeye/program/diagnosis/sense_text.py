@@ -182,5 +182,5 @@ def inches(length: float) -> str:
 
 
 def inches_apart(*lengths: float, decimals: int = 2) -> list[str]:
-    """Write lengths (m) in inches, with more decimals if two of them would look the same."""
+    """Write lengths (m) in inches, with more decimals if two lengths would look the same."""
     return distinct_digits([length / INCH for length in lengths], decimals)

@@ -52,7 +52,7 @@ class StageLeg(Record, frozen=True, kw_only=True):
 
 
 class StageLimits(Record, frozen=True, kw_only=True):
-    """Which languages can do a stage, and what the other languages have no words for."""
+    """Which languages can do a stage, and which of its instructions the other languages have no words for."""
 
     stage: str
     languages: str  # that have a leg

@@ -121,7 +121,7 @@ def chip(spec: mujoco.MjSpec, high: float) -> None:
 
 
 def shade(spec: mujoco.MjSpec, _: float) -> None:
-    """Hang a card half way between the lamp and the base, so that its shadow covers the base up to the middle."""
+    """Hang a card half way between the lamp and the base, so that the card shades one half of the base."""
     light, base = next(each for each in spec.lights if each.name == "key").pos, spec.body("base").pos
     card = spec.worldbody.add_geom(
         name="card", type=spec.geom("hub").type, contype=0, conaffinity=0, group=2, rgba=[0.2, 0.2, 0.2, 1.0]
