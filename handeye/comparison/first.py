@@ -32,8 +32,8 @@ from handeye.trace.trace import Trace
 OF_A_PERIOD: Final = (JOINTS, HAND, MACHINES, FRAMES)
 """Channels that are recorded in every servo period."""
 _SAID_TWICE: Final = (LOG, SCENE)
-"""Channels that only repeat what other channels contain. `LOG` has a sentence for each event, and `SCENE` the
-appearance of bodies.
+"""Channels that only repeat what other channels contain. `LOG` contains a sentence for each event, and `SCENE`
+contains the appearance of the bodies.
 """
 
 
@@ -150,7 +150,7 @@ class First:
     period: int | None = None  # servo period of the step, counted from 1; None outside servo periods
     differing: QuantityDifference
     next: tuple[AnyEvent | None, AnyEvent | None] = (None, None)
-    """The next event of each run, if the first difference is one of events. None for a run that has ended, or whose
+    """The next event of each run, if the runs first differ in their events. None for a run that has ended, or whose
     step continues with a servo period.
     """
 

@@ -170,7 +170,9 @@ CODES: Final[dict[str, Code]] = {
         "REQUIRE pins.al\nREQUIRE pins.al",
         {"pins.al": "PARK"},
     ),
-    "restore-without-move": _error("a RESTORE does not follow a MOVE", "SAVE H\nOPEN 1\nRESTORE H"),
+    "restore-without-move": _error(
+        ("a RESTORE has no goal to shift, because no MOVE is directly before it"), "SAVE H\nOPEN 1\nRESTORE H"
+    ),
     "save-without-move": _warning(
         "a SAVE has no MOVE before it on any path through the program", "CLOSE\nSAVE H"
     ),

@@ -202,7 +202,9 @@ class Variation:
         return tuple(there)
 
     def draw(self, spec: WorldSpec) -> World:
-        """Generate the world of a specification. Raises BadArgument if the specification does not fit this table."""
+        """Generate the world of a specification. Raises BadArgument if the specification names a quantity that does
+        not exist, or gives a quantity a value that it cannot have.
+        """
         self.check(spec)
         there = self.present(spec.overrides.set)
         return World(spec=spec, values={name: self.value(name, spec) for name in there})
@@ -235,7 +237,7 @@ class Variation:
         return found
 
     def check(self, spec: WorldSpec) -> None:
-        """Raise BadArgument unless a world can be generated from this table."""
+        """Raise BadArgument if these quantities do not allow the world of a specification."""
         if spec.level not in SPREADS:
             raise NoSuchName(f"there is no level {spec.level!r}; the levels are {', '.join(SPREADS)}")
         if spec.drawing != DRAWING:

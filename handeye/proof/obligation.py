@@ -57,6 +57,6 @@ class Obligation(Record, frozen=True, kw_only=True):
     claims: tuple[Claim, ...] = ()
     rests: str  # sentence: on what the argument rests besides the claims, or how much may remain unnoticed
     unnoticed: float | None = None
-    """Value of the finding, in its unit, up to which a failure may remain unnoticed; None if the limit is not stated
-    as a number.
+    """The largest value of the finding (in the finding's unit) at which a failure may remain unnoticed; None if no
+    number is stated for it.
     """

@@ -27,8 +27,8 @@ sinks by less than this distance.
 """
 TURNED: Final = 0.02  # rad by which the hand may be turned. Our choice.
 GAP_CHANGED: Final = 1e-3
-"""Largest change (m) of the gap at which the hand still holds the same part. Our choice: a part that straightens
-between the fingers makes the gap up to .55 mm wider or narrower.
+"""If the gap between the fingers has changed by at most this distance (m), we assume that the hand still holds the
+same part. Our choice: a part that straightens between the fingers makes the gap up to .55 mm wider or narrower.
 """
 MOST_NAMES: Final = 200
 

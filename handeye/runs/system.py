@@ -352,8 +352,8 @@ class StepperWords:
 
 
 class LiveNews(ABC):
-    """The part of a live run's page that only one system shows. While the run continues, the server's thread asks this
-    object for news.
+    """The part of a live run's page that is specific to the run's system. While the run continues, the server's thread
+    asks this object for news.
     """
 
     part: PagePart

@@ -20,8 +20,8 @@ class Difference(Record, frozen=True, kw_only=True):
     pairs: int
     more: float  # Median, over the pairs, of the value in this batch minus the value in the first batch
     p: float
-    """Two-sided p-value of Wilcoxon's signed-rank test. Suppose that neither batch is better: `p` is then the
-    probability of differences that favour one of the batches at least as strongly as these differences do.
+    """Two-sided p-value of Wilcoxon's signed-rank test. If neither batch were better, differences that favour one
+    batch at least as strongly as the measured differences would occur with the probability `p`.
     """
 
 

@@ -251,7 +251,7 @@ FAULTS: Final = Sweep(
         "recovered": "right", "stopped": "right", "misnamed": "wrong",
         "unnoticed": "silent", "unbraked": "silent", "silent": "silent",
     },
-    success="recovered, or stopped and named correctly",
+    success="recovered, or stopped with the right fault named",
     noun="fault",
     sentence=_sentence,
     summary=_summary,

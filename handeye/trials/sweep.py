@@ -242,7 +242,7 @@ def lost(row: type[R], case: Case, **fields: object) -> list[R]:
 
 
 Engine = Callable[[GuardedWork[Any], Sequence[Case]], Generator[Answer[Case, list[Any]], None, None]]
-"""Executes cases in any order. A case whose process is lost is repeated once."""
+"""A function that executes cases in any order. If the process of a case is lost, the function repeats the case once."""
 
 
 def processes(jobs: int, cpu_limit_s: float | None = None) -> Engine:

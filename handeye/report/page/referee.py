@@ -32,8 +32,8 @@ def _content(run: RecordedRun) -> Iterator[Markup]:
         )
     else:
         yield note(
-            "The referee measured the finished work in the simulator; the program does not see these values. A "
-            "bar shows what fraction of its limit a value uses; counts have no bar."
+            "The referee measured the finished work in the simulator; the program does not see these values. The "
+            "bar beside a value shows the value as a fraction of its limit; counts have no bar."
         )
         yield findings_table(run.result.referee.values())
         for limit in told_limits(run.result):

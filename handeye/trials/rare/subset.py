@@ -26,9 +26,9 @@ Papaioannou and others.
 FIRST_STEP: Final = 0.6  # Papaioannou and others
 SMALLEST_STEP: Final = 0.02
 REDRAWN: Final = 0.5
-"""Probability with which a candidate has new noise. The other candidates keep the noise of the state they come from.
-With new noise in every candidate, a failure that needs a rare noise would be lost at every step. The value is our
-choice.
+"""Probability with which a candidate has new noise. The other candidates keep the noise of the state from which they
+were made. If every candidate had new noise, each step would lose the failures that occur only with a rare noise. The
+value is our choice.
 """
 NORMAL_95: Final = 1.96  # standard deviations
 FAILED: Final = 0.0  # a run whose margin is not above this has failed

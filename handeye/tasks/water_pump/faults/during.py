@@ -212,7 +212,9 @@ class Mishaps(Mechanism[MishapsState]):
             if not 0 <= (own.seconds or 0.0) < np.inf:
                 raise ValueError("a fault has an impossible time")
             if (own.seconds is None or mishap.watched is None) != (own.place is None):
-                raise ValueError("a fault belongs to a different part")
+                raise ValueError(
+                    "a fault has a place although it can have none, or has no place although it needs one"
+                )
 
     def restore(self, state: MishapsState) -> None:
         self._states = list(state.mishaps)
