@@ -46,7 +46,8 @@ REST_STEPS: Final = 4
 """Tolerance, in converter steps, for a change of the potentiometer reading while the brakes are set and the
 tachometer reads zero.
 
-Two steps allow for the noise at the high level. The other steps allow for an arm that creeps.
+Two of these steps allow for the noise in a world whose errors have the level `high`. The other two allow for an arm
+that creeps.
 """
 
 

@@ -26,8 +26,8 @@ from handeye.core.pose import Array
 
 SLIDING_STEPS: Final = 4.0  # rate, in tachometer steps, at which a joint certainly slides; chosen
 LEAST_PERIODS: Final = 15
-"""Least number of servo periods of sliding for an average torque. Our choice: the rounding error of the average is a
-quarter of that of a single torque.
+"""A joint must slide for at least this number of servo periods before its torques are averaged. Our choice: the
+rounding error of the average is then a quarter of that of a single torque.
 """
 MAX_DRAG_RATIO: Final = 2.0
 """Greatest plausible ratio of the friction of a joint to its first measurement. Half a converter step is allowed in

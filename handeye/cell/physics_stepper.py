@@ -69,9 +69,9 @@ class Carrying:
     hand: str  # the body that moves everything that is carried
     pairs: tuple[tuple[str, str], ...]  # allowed in long steps: the hand and a free body, or two free bodies
     delicate: tuple[tuple[str, ...], ...] | None = None
-    """The contacts that are not allowed in middle steps. A tuple with two bodies stands for their contact with each
-    other; a tuple with one body stands for every contact of this body. If this is None, the simulation takes no middle
-    steps.
+    """The contacts that are not allowed in steps of medium length. A tuple with two bodies stands for their contact
+    with each other; a tuple with one body stands for every contact of this body. If this is None, the simulation takes
+    no steps of medium length.
     """
     resting: tuple[str, ...] = ()  # joints that do not move during middle steps
 
@@ -124,7 +124,7 @@ class _Contacts:
     carried: bool
     """True if all pairs are allowed in long steps."""
     delicate: bool
-    """True if at least one pair is not allowed in middle steps."""
+    """True if at least one of the pairs is not allowed in steps of medium length."""
     held: tuple[tuple[int, int], ...]
     """The free bodies that the hand carries, each with the index of its pose among the positions of the simulator.
     Empty if `carried` is false.

@@ -140,7 +140,7 @@ def _own_trials(task: str) -> str:
 
 
 def _sound(setup: Setup, folder: Path, seeds: Sequence[int], jobs: int) -> None:
-    """Execute the fault-free runs that a folder lacks."""
+    """Execute the fault-free runs that are not yet in the folder."""
     from handeye.trials.sound_run import sound_runs
 
     worlds = [msgspec.structs.replace(setup.world, seed=seed) for seed in seeds]

@@ -269,7 +269,8 @@ def resume(
 
     If the run has ended, the command shows its result and changes nothing; with `--step` you can go back in the run.
 
-    The folder of a run resumes from its newest valid checkpoint. The exit codes are those of `handeye run`.
+    If PATH is the folder of a run, the run continues from the newest valid checkpoint in the folder. The exit codes
+    are those of `handeye run`.
     """
     from handeye.cli.job import Job, work
     from handeye.cli.reports import shown

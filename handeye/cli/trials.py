@@ -141,7 +141,7 @@ def disturbed_trials(
     arm does damage?
 
     The stop is in time if, up to the stop, no part outside the hand moved by more than 2 mm in one step, and the
-    hand felt at most 60 N. Each trial first builds the pump; the building takes one CPU minute.
+    hand felt at most 60 N. Each trial first builds the pump, which takes one CPU minute.
 
     Exit code 0: every trial was stopped in time; 3: a trial was not stopped in time; 2: bad input; 130: interrupted.
     """
@@ -264,7 +264,7 @@ def _folder(named: Path | None) -> Iterator[Path]:
 
 
 def _own_setup(words: str | None, camera: str) -> Setup:
-    """A run of a task by its own plan. The world is chosen later."""
+    """The set-up of a run that uses the task's own plan. The world is chosen later."""
     work = any_task(DEFAULT) if words is None else named(words)
     if isinstance(work, Task):
         return Setup(plan=plan_or_own(None, words), world=WorldSpec(seed=0), camera=camera)

@@ -112,8 +112,8 @@ class ErrorOptions:
 
     def apart(self, calls: Set[str]) -> "tuple[ErrorOptions, tuple[str, ...]]":
         """Split the names in `--without`. The first value is a copy of these options whose `--without` keeps only the
-        errors of the world. The second value contains the senses and macros that the program must do without; no name
-        occurs twice in it.
+        errors of the world. The second value names the senses and macros that the program must do without, each name
+        once.
         """
         names = [name.upper() if name.upper() in calls else name for name in self._names()]
         spared = [*SENSES, *sorted(calls)]
@@ -241,7 +241,8 @@ class WorldOptions:
 def broken(
     world: WorldSpec, options: list[str] | None, work: "AnyTask", listing: "Listing | None" = None
 ) -> WorldSpec:
-    """A world of a task with faults; raises InvalidInput if there is no such fault, value or stage.
+    """Add the faults that `options` names to a world. Raises InvalidInput if a named fault, value or stage does not
+    exist.
 
     Args:
         listing: the program's stages, at which faults may begin. If this is None, faults cannot begin at stages.

@@ -32,9 +32,9 @@ MIN_TRAVEL: Final = 0.5  # least fraction of the commanded path; a joint that mo
 MAX_RATIO: Final = 1.8
 """Greatest plausible ratio of the measured friction of a joint to the friction in the joint's data.
 
-The value is above the ratios of almost all sound joints, and below many ratios of joints whose drives give half of
-their torque. In sixty measured worlds, sound joints reached 1.61. In eighty worlds with twice the errors, only one
-sound joint exceeded the limit, with 1.87. With a drive that gives half of its torque, the ratio was 1.4 to 2.3.
+Almost all sound joints have a smaller ratio. Many joints whose drives give half of their torque have a larger one. In
+sixty measured worlds, sound joints reached 1.61. In eighty worlds with twice the errors, only one sound joint exceeded
+the limit, with 1.87. If the drive of a joint gave half of its torque, the ratio was 1.4 to 2.3.
 """
 
 

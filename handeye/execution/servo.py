@@ -69,9 +69,9 @@ class Servo:
     arithmetic: Callable[[ArmModel], ArmArithmetic] = Formulas  # computes an arm at one configuration
     _chain: tuple[ArmModel, ArmArithmetic] | None = field(default=None, init=False)
     _unseen: Array | None = field(default=None, init=False)
-    """Difference (rad, m) in the last servo period between the motion of each joint and the motion that its rates
-    show. The value is set only if the closing gap shows that an object has shifted in the fingers; if not, it is None.
-    Such a shift can move the hand suddenly.
+    """How far (rad, m) each joint moved in the last servo period, minus the motion that its rates show. The value is
+    set only if the closing gap shows that an object has shifted in the fingers, which can move the hand suddenly; if
+    not, the value is None.
     """
 
     @property

@@ -12,7 +12,7 @@ class Phase(Record, frozen=True, kw_only=True):
     by: tuple[Evidence, ...] = ()
     undone: tuple[Evidence, ...] = ()
     """Kinds of steps after which the phase must be shown again, because these steps may change what the phase has
-    shown. This holds even if such a step raises an error.
+    shown. The phase must be shown again even if such a step raises an error.
     """
 
 

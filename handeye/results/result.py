@@ -53,8 +53,7 @@ class Timing(Record, frozen=True, kw_only=True):
     lens_s: float
     """Simulated time in which the arm waited for lens change, aim, focus and pictures."""
     overlapped_s: float
-    """Simulated time in which the camera's mechanism was busy while the arm moved; `manipulation_s` includes this
-    time.
+    """Simulated time in which the camera's mechanism and the arm moved at once; `manipulation_s` includes this time.
     """
     working_s: float
     """Simulated time of the working phase: the sum of `manipulation_s` and `lens_s`."""

@@ -76,8 +76,8 @@ class LegSystem(ABC):
     stages_in_text = False  # True: the text itself is divided into stages; False: it is one leg
     words: frozenset[str] | None = None
     """Operations (`program/operations.py`) for which the language has words; None if the language has words for all
-    operations. `Restore` stands for saved differences in a motion, and `Comply` for the control of the force in a
-    motion.
+    operations. In this set, `Restore` means that the language can use saved differences in a motion, and `Comply`
+    means that it can control the force in a motion.
     """
 
     @abstractmethod

@@ -83,7 +83,7 @@ def tables(
         )
     if at is not None:
         raise BadArgument(
-            "--at does not apply to the changes of a word in a whole run; omit the word, or omit --at"
+            "with a word, the command shows the changes of this word in the whole run; omit the word, or omit --at"
         )
     return answer(text.one_word(done, segment, line, word), text.course(done, segment, line, word), json=json)
 

@@ -74,7 +74,9 @@ class _Progress(Observer):
         if isinstance(event, StepStarted):
             steps = counted(len(self._runner.system.executed), "step")
             way = "undoing" if isinstance(event, UndoStarted) else "running"
-            self._status.update(f"{way}: {steps} done (not counting undone steps), now at {event.text}")
+            self._status.update(
+                f"{way}: {steps} done (not counting steps that were undone), now at {event.text}"
+            )
 
 
 def palletise(
