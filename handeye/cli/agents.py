@@ -68,8 +68,8 @@ def bench_agents(
     brief: Annotated[
         Path | None,
         Parameter(
-            help="Instead of --command: a new folder for the brief and the given files; nothing is judged. If "
-            "several tasks are chosen, the new folder gets a folder for each task."
+            help="Instead of --command: write the brief and the given files to this new folder, and judge nothing. "
+            "If several tasks are chosen, the folder contains one folder for each task."
         ),
     ] = None,
     attempt: Annotated[

@@ -18,8 +18,8 @@ _LEAVE_OUT: Final = "leave out --task, or give the right task"
 
 
 def compiled(file: Path, work: "Task | None" = None) -> Plan:
-    """The plan of a script for a task, by default the script's own task; prints diagnostics and exits if there is
-    no plan.
+    """The plan of a script for a task, by default the script's own task. Prints the diagnostics of the script. If the
+    script has no plan, the command exits.
     """
     made = plan_script(file, work=work)
     show(made.diagnostics, made.source, json=False)
@@ -99,7 +99,9 @@ def _program(given: Path) -> "tuple[Path, Task] | None":
 
 
 def _note_file(given: Path) -> None:
-    """Print a note that the file is used, if there is also a program with the same name."""
+    """If there is also a program with the name of the file, print a note that the file is used instead of this
+    program.
+    """
     if _is_name(given) and given.is_file() and program_named(given.name) is not None:
         note(f"{given}: using this file, not the program of the same name")
 

@@ -50,7 +50,8 @@ class SampleOptions:
     levels: Annotated[
         WholeNumber,
         Parameter(
-            help="Greatest number of levels. Each level reaches worlds that are about ten times rarer."
+            help="Greatest number of levels. Each level reaches worlds that are about ten times rarer than those of "
+            "the level before."
         ),
     ] = 6
     failure: Annotated[
@@ -105,7 +106,7 @@ class SampleOptions:
 
     @contextmanager
     def campaign(self, page: str) -> "Iterator[_Search]":
-        """Begin or continue a search; while the search continues, its runs are counted on standard error."""
+        """Begin or continue a search. While the search runs, standard error shows the number of its runs."""
         from handeye.trials.folder import BatchFolder, head_of
         from handeye.trials.rare.campaign import Campaign, forget_worlds
         from handeye.trials.rare.page import PAGE
@@ -208,10 +209,10 @@ ANY_SAMPLE: Final = SampleOptions()
 def rare_trials(*, options: SampleOptions = ANY_SAMPLE) -> int:
     """Estimate how rarely a program stops, and how rarely it fails silently, by subset simulation.
 
-    The worlds of the first level are made from seeds. Each further level is a sample of the worlds in which the
-    program comes at least as close to failing as in the worst tenth of the previous level's worlds. The product of the
-    shares of all levels estimates the probability of the failure; the product is not a bound. Only a run in a world
-    decides whether the program fails there.
+    The worlds of the first level are made from seeds. In a tenth of the worlds of each level, the program comes
+    closest to failing. The next level is a sample of worlds in which the program comes at least as close to failing as
+    in this tenth. The product of the shares of all levels estimates the probability of the failure; the product is not
+    a bound. Only a run in a world decides whether the program fails there.
 
     Exit code 0: no silent failure; 3: in some world, the program reported success but the referee disagreed; 2: bad
     input; 130: interrupted.
@@ -246,7 +247,8 @@ def worst_trials(
         WholeNumber,
         Parameter(
             help=(
-                "Number of failing worlds, the nearest ones, from which the search for still nearer worlds starts."
+                "Number of searches for failing worlds that are nearer still. Each search starts from one of the "
+                "nearest failing worlds found so far."
             )
         ),
     ] = 5,
@@ -257,9 +259,9 @@ def worst_trials(
 ) -> int:
     """Find the nearest worlds in which a program fails, and the quantities that push it to fail.
 
-    The levels are those of `trials rare`. This command can therefore continue a folder that `trials rare` wrote. In
-    each of the nearest failing worlds, the command then returns the quantities to the middle of their ranges, except
-    those whose deviation is needed for the failure.
+    The levels are those of `trials rare`, so this command can continue the work in a folder that `trials rare` wrote.
+    In each of the nearest failing worlds, the command then returns the quantities to the middle of their ranges,
+    except those whose deviation is needed for the failure.
 
     Exit code 0: no silent failure; 3: in some world, the program reported success but the referee disagreed; 2: bad
     input; 130: interrupted.

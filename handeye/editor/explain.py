@@ -182,7 +182,7 @@ REMEDIES: Final[dict[int, Remedy]] = {
     ),
     errors.WRONG_HEIGHT: Remedy(
         "HEIGHT compares the heights of two touches at one place, so the error of the arm cancels. If the check "
-        "fails, a layer is missing, or the layer is the wrong one.",
+        "fails, a layer is missing, or a wrong layer is in its place.",
         "OPEN 0\nMOVE T\nSTOP [0 0 -40]\nCHANGE [0 0 -1] .7 .5\nSAVE BARE\nPARK\nMOVE T\nSTOP [0 0 -40]\n"
         'CHANGE [0 0 -1] .7 .5\nHEIGHT BARE .04 .08\nSKIPN 9 ;one gasket thick\nWAIT "SEE TO THE GASKET"\nPARK',
     ),
@@ -208,8 +208,8 @@ REMEDIES: Final[dict[int, Remedy]] = {
         'LOOK V\nGENERAL BASE V\nLOOK W\nSPECIFIC BASE W\nSKIPN 31 ;its holes are found\nWAIT "TURN THE BASE"\nMOVE P',
     ),
     errors.GASKET_WRONG: Remedy(
-        "The difference between the pictures taken before and after the gasket was placed is not the one that a "
-        "correctly placed gasket makes. Place the gasket again, or ask the operator.",
+        "A correctly placed gasket makes a certain difference between the picture before and the picture after it "
+        "was placed; these two pictures do not differ in that way. Place the gasket again, or ask the operator.",
         "LOOK BEFORE HOLD\nMOVE P\nLOOK AFTER HOLD\nINSPECT BASE BEFORE AFTER\nSKIPN 32 ;it is on properly\n"
         'WAIT "CHECK THE GASKET"\nPARK',
     ),

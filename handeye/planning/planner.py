@@ -36,7 +36,7 @@ SPEED = 0.40
 fraction.
 
 Fitted: with the assumed acceleration limits, the whole job takes about four minutes, as in 1973 (layout study,
-section 5). One fitted number is no evidence of the speed of the real arm.
+section 5). Because the fraction was fitted, the duration of the job is no evidence of the speed of the real arm.
 """
 HOME = "PARK"  # the position a program starts from
 _COLLISION_STRIDE = (

@@ -48,7 +48,7 @@ class HandOver(Record, frozen=True, kw_only=True):
     held: str = ""  # the part that the hand holds, as its program calls it; empty: none
     load: float = 0.0  # weight of what the hand holds, as the program knows it
     named: dict[Kind, dict[str, tuple[float, ...]]] = field(default_factory=dict)
-    """What programs have found: the numbers of each value, by kind and name."""
+    """The values that programs have found, by kind and name. Each value is a tuple of numbers."""
 
     def check(self) -> None:
         """Raise Refused unless all values are finite numbers in SI units."""

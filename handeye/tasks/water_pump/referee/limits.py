@@ -18,7 +18,7 @@ limit would already reveal a lost chip under the layer (assembly study).
 SCREW_GAP: Final = 0.2
 """Greatest gap between head and flange (mm). A cross-threaded screw stands 4.4 to 5.7 mm high (assembly study)."""
 SCREW_CLAMP: Final = 40.0
-"""Least clamping force of a screw (N). It exceeds 19 N, the force with which a hand pulls. The clamping force of
+"""Least clamping force of a screw (N). The limit exceeds 19 N, the force with which a hand pulls. The clamping force of
 seated screws is 56 to 298 N.
 """
 SCREW_TURNED: Final = 400.0
@@ -31,9 +31,9 @@ SCREW_STRAIN: Final = 420.0
 later shift the load. In pumps that the arm has made, the force is at most 298 N.
 """
 SCREW_HOLD: Final = 0.02
-"""Least torque to turn a screw back (N m): the friction torque of a clean thread without clamp. With a clamping
-force of 40 N, this torque is at least .026 N m in any world. Without friction, the clamping force itself would
-turn the screw out.
+"""Torque (N m) that must at least be necessary to turn a screw back. It is the friction torque of a clean thread
+without a clamping force. With a clamping force of 40 N, this torque is at least .026 N m in any world. Without
+friction, the clamping force itself would turn the screw out.
 """
 SCREW_SIZE: Final = 0.35
 """Greatest deviation of any length or radius from the design (mm): the play of a screw's point in a tapped
@@ -44,8 +44,8 @@ SCREW_THREAD: Final = 6.35
 mm of thread in the base.
 """
 SCREW_PLACE: Final = 0.12
-"""Greatest distance (mm) between the axes of a screw and its hole: the loosest fit of a 1/4-20 thread of class 2,
-with pitch diameters of .2127 in and .2224 in (ASME B1.1).
+"""Greatest distance (mm) between the axes of a screw and its hole. It is the play of the loosest fit of a 1/4-20
+thread of class 2: half the difference between the pitch diameters .2127 in and .2224 in (ASME B1.1).
 """
 SCREW_LEAN: Final = 1.0  # deg: at this tilt, one side of a head 11 mm wide is lifted by about SCREW_GAP
 SCARS: Final = 0
@@ -78,8 +78,8 @@ RACK_PLACE: Final = 3.0  # mm from its place in the rack: guides and their bevel
 
 ROTOR_TORQUE: Final = 0.1
 """Greatest torque (N m) to turn the rotor all the way round, in both directions: twice the friction of the rotor,
-which is .05 N m in every world. Inertia and bearing add .01 N m at the speed of the referee's turn. The check in the
-reference, 40 oz at the crank, allows .35 N m, but a rotor that needs this torque binds.
+which is .05 N m in every world. Inertia and bearing add .01 N m at the speed of the referee's turn. A rotor that needs
+.35 N m binds, although the check in the program of 1973, 40 oz at the crank, accepts this torque.
 """
 
 ROTOR_PLACE: Final = 0.1
