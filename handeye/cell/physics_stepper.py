@@ -56,7 +56,9 @@ FINER: Final = 8
 """
 _WHOLE_STATE: Final = int(mujoco.mjtState.mjSTATE_INTEGRATION)
 RESTING: Final = 1e-2
-"""Largest speed (rad/s, m/s) of a joint at rest. Our choice: a joint held by friction creeps at less than 1e-4."""
+"""A joint that moves no faster than this speed (rad/s, m/s) counts as at rest. Our choice: a joint held by friction
+creeps at less than 1e-4.
+"""
 _STIFFEST: Final = 0.9999  # MuJoCo's limit for the impedance of a constraint
 _JUDGED: Final = 1000  # sets of pairs of bodies that are remembered
 BodyPairs = frozenset[tuple[int, int]]  # numbers of bodies, the smaller first

@@ -84,8 +84,8 @@ def insertion(
     ] = "gentle",
     options: SweepOptions = ANY,
 ) -> int:
-    """Insert one pin into one hole, many times: success rate, peak force, and time from first contact until the pin is
-    seated.
+    """Insert one pin into one hole, many times, and measure success rate, peak force, and time from first contact
+    until the pin is seated.
 
     The arm, hand and servo are the same as in the pump's cell. The plate has one hole, which is displaced along each
     axis by a normally distributed error. As with the pump, worlds differ in the errors of arm and hand. A trial begins

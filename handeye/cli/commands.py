@@ -44,7 +44,7 @@ diff = scripts:diff: Compare what two plans do, step by step.
 schema = scripts:schema: Print the JSON schema of the plan format.
 trace: Read the traces of runs.
 trace show = traces:show: Show what happened in a run, and why.
-trace stats = traces:stats: Count and time what happened in a run, stage by stage.
+trace stats = traces:stats: Count what happened in a run, stage by stage, and show how long it took.
 trace photograph = traces:photograph: Photograph the cell at a moment of a recorded run, without simulating it again.
 trace verify = traces:verify: Repeat a recorded run and compare the two.
 trace thin = exports:thin: Shrink a trace to about a tenth of its size, for sharing; the smaller trace keeps the motion that is needed to show the run.
@@ -58,7 +58,7 @@ faults = fault_matrix:faults: Assemble once with each fault of a standard set, a
 trials: Repeat a task in many worlds and count successes.
 trials assembly = batches:assembly_trials: Assemble in many worlds, to learn the success rate with its confidence interval, and what failed where.
 trials dismantling = batches:dismantling_trials: Assemble in many worlds, make the arm take each pump apart again, and count how often every part is back in place.
-trials disturbed = trials:disturbed_trials: Disturb a finished pump without telling the program, then take it apart: does a guard stop the arm before the arm does damage?
+trials disturbed = trials:disturbed_trials: Disturb a finished pump without telling the program, then take the pump apart: does a guard stop the arm before the arm does damage?
 trials compare = batches:compare_trials: Compare one or more batches of trials with the first batch, world by world, to see how much a sensor, or an error of the world, changes the success rate.
 trials base = trials:base_vision_trials: Find the base of the pump on the belt, at many poses: how often it is found, how accurately, and how often in the wrong place.
 trials gasket = trials:gasket_vision_trials: Inspect gaskets by camera: in place, shifted by .3 in, absent, and one on top of another.
@@ -66,14 +66,14 @@ trials chaos = trials:chaos_trials: Chaos test: random faults, crashes, interrup
 trials mutants = mutants:mutant_trials: Make mutants of a program, each with one check taken away or weakened. Does the proof refuse each mutant? If not, does another check catch the faults for which the changed check was meant?
 trials record = datasets:record: Record runs in many worlds, each with its trace in a folder of its own: for data sets and reports.
 trials rare = rare:rare_trials: Estimate how rarely a program stops, and how rarely it fails silently, by subset simulation.
-trials worst = rare:worst_trials: Find the nearest worlds in which a program fails, and the quantities that push it to fail.
+trials worst = rare:worst_trials: Find the nearest worlds in which a program fails, and the quantities that make it fail.
 env: Gymnasium environments of the cell, for learned policies; need the extra `env` (gymnasium).
 env list = environments:environments: List the Gymnasium environments: their ids, jobs and time limits.
 env evaluate = environments:evaluate: Evaluate a policy: success rate and false-done rate with their confidence intervals, steps of the work reached, peak force and time.
 bench: Benchmarks: stage times, inserting a pin into a hole, and programs that agents write.
 bench timing = benches:timing: Assemble once and print the times of the stages next to those of 1973.
 bench agents = agents:bench_agents: Score programs that agents write, in worlds that the agents have not seen; silent failures count twice.
-bench insertion = benches:insertion: Insert one pin into one hole, many times: success rate, peak force, and time from first contact until the pin is seated.
+bench insertion = benches:insertion: Insert one pin into one hole, many times, and measure success rate, peak force, and time from first contact until the pin is seated.
 """  # noqa: E501 - a command a line
 """Commands as lines `NAME = MODULE:FUNCTION: SENTENCE`. Lists of commands show the sentence, which is the first
 sentence of the command's docstring; a group of commands has no function. The modules are in this folder.

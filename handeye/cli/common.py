@@ -160,8 +160,8 @@ def say(text: str, to: Console = screen, *, style: str | None = None, whole: boo
 
 
 def put(answer: bytes) -> None:
-    """Write an answer for another program, or the content of a file, in UTF-8, whatever the encoding of the
-    terminal.
+    """Write an answer for another program, or the content of a file. The encoding is UTF-8, even if the terminal has a
+    different encoding.
     """
     sys.stdout.buffer.write(answer)
     sys.stdout.flush()

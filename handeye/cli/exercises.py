@@ -38,8 +38,8 @@ def exercise(
     first_seed: Annotated[
         WholeNumber | None,
         Parameter(
-            help="Try your program in other worlds, as many as the exercise has. This number is the seed of the "
-            "first world; each further world has the next seed. Default: the worlds of the exercise."
+            help="Try your program in other worlds, as many as the exercise has. --first-seed gives the seed of the "
+            "first of these worlds; each further world has the next seed. Default: the worlds of the exercise."
         ),
     ] = None,
     jobs: Annotated[WholeNumber, Parameter(help="Number of processes that work at the same time.")] = 2,
@@ -166,7 +166,9 @@ def _grade(chosen: "Exercise", file: Path, seed: int | None, jobs: int, *, json:
 
 
 def _elsewhere(chosen: "Exercise", first: int) -> "Exercise":
-    """Return the exercise with other worlds."""
+    """Return the exercise in worlds whose seeds begin with `first`. Raises BadArgument if the exercise has no worlds,
+    or if a seed is not valid.
+    """
     from handeye.core.variation import checked_seed
 
     if not chosen.seeds:

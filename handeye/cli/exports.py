@@ -92,7 +92,7 @@ def _told(written: "Export", *, json: bool) -> int:
 
 def _exhibit(run: Path | None, world: WorldOptions) -> "ExportedState":
     """The state to export. Notes are printed about everything that the export leaves out. Raises InvalidInput if there
-    is no such run.
+    is no run in `run`.
     """
     from handeye.runs.exported_state import initial_state, kept_state
 

@@ -228,7 +228,7 @@ def _way_on(folder: Path, result: "Result") -> str:
 
 
 def shown(folder: Path, *, json: bool, details: bool = True) -> "KeptRun":
-    """Print the result or progress of the run in a folder; raises InvalidInput if there is none to show."""
+    """Print the result or the progress of the run in a folder. Raises InvalidInput if the folder has neither."""
     from handeye.results.kept_run import kept_run
     from handeye.results.page import page, short_page
     from handeye.results.result import to_json

@@ -137,8 +137,8 @@ def disturbed_trials(
     camera: Camera = "auto",
     options: SweepOptions = ANY,
 ) -> int:
-    """Disturb a finished pump without telling the program, then take it apart: does a guard stop the arm before the
-    arm does damage?
+    """Disturb a finished pump without telling the program, then take the pump apart: does a guard stop the arm before
+    the arm does damage?
 
     The stop is in time if, up to the stop, no part outside the hand moved by more than 2 mm in one step, and the
     hand felt at most 60 N. Each trial first builds the pump, which takes one CPU minute.
@@ -210,8 +210,8 @@ def chaos_trials(
     """Chaos test: random faults, crashes, interruptions and operator answers; each failure is reduced to one
     command that repeats it.
 
-    A schedule is one test. It starts somewhere in a fault-free run and continues for a few steps, or to the end of
-    the stage. It has up to two faults, and up to two interruptions: the panic button, a pause, going back, or a
+    A schedule is one test. It starts from a random step of a fault-free run, and continues for a few steps, or to the
+    end of the stage. It has up to two faults, and up to two interruptions: the panic button, a pause, going back, or a
     killed process. After each interruption, the run resumes from disk. A simulated operator answers each call: it
     retries, skips, proceeds or aborts. The same schedule then runs again without its interruptions.
 

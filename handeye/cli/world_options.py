@@ -1,4 +1,4 @@
-"""Options that choose a world, the same on every command that builds one."""
+"""Options that choose a world. Every command that builds a world has these options."""
 
 from collections.abc import Set
 from dataclasses import dataclass, replace
@@ -40,7 +40,7 @@ Faults = Annotated[
 @Parameter(name="*", group=WORLD)
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ErrorOptions:
-    """The task of the world, its errors, and their sizes."""
+    """The task of a world, which errors the world has, and how large they are."""
 
     task: TaskWords = None
     level: Annotated[
@@ -170,7 +170,7 @@ class WorldOptions:
 
     @property
     def task(self) -> str | None:
-        """The task given as an option, or else the task of the file; None if both were left out."""
+        """The task given as an option. If there is none, the task in the file of the world; None if neither was given."""
         if self.errors.task is None and self.file is not None:
             return read_world(self.file).task
         return self.errors.task

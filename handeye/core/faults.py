@@ -45,7 +45,7 @@ class ExpectedDetection:
 
     errors: tuple[int, ...] = ()  # errors that identify it
     calls: tuple[str, ...] = ()
-    """Messages to the operator that identify the fault. In a message, `{...}` stands for any name or number of a
+    """Messages to the operator that identify the fault. In a message, `{...}` stands for the name or the number of any
     part.
     """
     at_setup: bool = False  # measuring the arm or calibrating the camera fails
@@ -58,8 +58,8 @@ class ExpectedDetection:
 
 
 def is_call(call: str, message: str) -> bool:
-    """Return True if a message to the operator matches the pattern `call`, in which `{...}` stands for any name or
-    number of a part.
+    """Return True if a message to the operator matches the pattern `call`, in which `{...}` stands for the name or the
+    number of any part.
     """
     return re.fullmatch(".+".join(map(re.escape, re.split(r"\{[^}]*\}", call))), message) is not None
 
@@ -88,8 +88,8 @@ class FaultKind:
     meaning: str  # a sentence: what is broken, and what the program gets instead
     size: Size | None = None  # None if the fault has no size
     when: Literal["before", "during", "later"] = "during"
-    """`before` if the fault can only be present in the world from the start; `during` if it can also begin at a
-    stage; `later` if it can also begin after a time.
+    """`before` if the fault can only be present from the start of the run. `during` if the fault can be present from
+    the start or begin at a stage. `later` if the fault can be present from the start or begin after a time.
     """
     usual_stage: int | None = None  # stage at which the fault begins by default, from 1; None for the start
     expected: ExpectedDetection = UNKNOWN

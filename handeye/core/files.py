@@ -192,7 +192,9 @@ class LineFile:
         """
         self.path = path
         self.unlocked = ""
-        """Why the file could not be locked, so that other processes can write to it; empty if the file is locked."""
+        """Reason why the file could not be locked; empty if the file is locked. Other processes can write to an
+        unlocked file.
+        """
         if path.exists() and not path.is_file():  # opening a pipe without a reader would wait for ever
             raise CannotWrite(f"{path} cannot be written: it is not a file")
         try:

@@ -136,8 +136,8 @@ class DriveState(MutableRecord, kw_only=True):
     measured.
     """
     weights: Array | None = None
-    """Later estimate of the errors of links and drives, with the covariance of the estimate, shape (3n, 1 + 3n); see
-    `arm.torque_balance`. None if there is no estimate yet.
+    """Estimate of the errors of links and drives, made after `links` was measured, with the covariance of the
+    estimate, shape (3n, 1 + 3n); see `arm.torque_balance`. None if there is no estimate yet.
     """
     tool: float = 0.0  # screwdriver speed, in rad/s
     current: float = 0.0  # its greatest torque since that speed was set, in N m

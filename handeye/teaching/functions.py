@@ -24,8 +24,8 @@ _ALONE: Final = frozenset(
         "unused-position", "unused-vector", "compared-without-hold",
     }
 )  # fmt: skip
-"""Codes of warnings about instructions that are missing in the text. These instructions may have been executed
-before, or may follow.
+"""Codes of warnings about instructions that the typed text lacks. The user may have executed these instructions
+before, or may type them later.
 """
 _LASTING: Final = ("TRANS", "VECT")
 

@@ -131,8 +131,9 @@ SKEW: Final = 1e-3
 turn of 2 degrees changes the gap by .9 mm.
 
 An object that is grasped again lies straighter, and CENTER holds it only lightly. An object that was pushed against
-blocks lies more askew. Measured: on pins, the gap closed by .5 mm. On the base of the pump, it closed by .8 mm and
-widened by .44 mm in the worlds of seeds 1 to 6; in the world of seed 1001, it widened by more than .5 mm.
+blocks lies more askew. We measured these changes. On pins, the gap closed by .5 mm. On the base of the pump, in the
+worlds of seeds 1 to 6, the gap closed by up to .8 mm or widened by up to .44 mm. In the world of seed 1001, it widened
+by more than .5 mm.
 """
 OFF_MIDDLE: Final = 3e-3
 """Permitted distance (m), along the line of the fingers, between an object and the middle of the fingers when they

@@ -19,11 +19,11 @@ from handeye.touch.guards import ActiveGuard, FirstOf, Reading, Trip
 
 SPEED: Final = 1.5
 """Speed of turning out, as a multiple of the speed of driving in. The torque at which a motor stalls is proportional
-to its commanded speed. The torque that loosens a screw needs this speed.
+to its commanded speed. At this higher speed, the motor exerts enough torque to loosen a screw.
 """
 PRESS: Final = 6.0  # N on the screw to keep the bit in its slot, as for driving in
 TURN: Final = 0.00127 * 1.5
-"""Tolerance (m) by which the rise may be less than the descent: one and a half turns of the thread, because the
+"""Tolerance (m) by which a screw may rise less than it went down: one and a half turns of the thread, because the
 start of the thread is not sensed.
 """
 TIGHTENED: Final = 3 * 0.00127

@@ -92,7 +92,7 @@ def arm() -> Iterator[Quantity]:
             "the whole arm (layout study, section 4)."),
         group("arm.wave_phase", phases, "deg", "Phase of the periodic error of the position reading."),
         group("arm.pot_noise", numbered(Noise, 0.004, 0.004, 0.002, 0.01, 0.01, 0.01), JOINT_UNITS,
-            "Noise of the potentiometers, which differs from reading to reading, before the converter.",
+            "Noise of the potentiometers before the converter. This noise differs from reading to reading.",
             unsourced="the noise is far smaller than a step of the converter (.05 to .08 deg and .009 in), so the "
                 "converter does not show it. Bound: the output smoothness of the Bourns 6639, .1 % of the travel, "
                 "which is four steps of the converter."),
@@ -183,7 +183,7 @@ def hand() -> Iterator[Quantity]:
             "2 oz for a simulation.",
             nominal=2.0, least=0.0),
         group("hand.lamp", {axis: Normal(0.03) for axis in "xyz"}, "in",
-            "Position of the lamp in the hand's frame, relative to the drawing that the camera calibration uses.",
+            "Deviation of the lamp's position in the hand's frame from the drawing that the camera calibration uses.",
             unsourced="the lamp is screwed on by hand and set with a rule, which has divisions of 1/64 in. Bound: "
                 "1/16 in, two sigma."),
     )  # fmt: skip

@@ -99,7 +99,9 @@ class Pile(Mechanism[Poured]):
 
     def check(self, state: Poured) -> None:
         if state != self.poured:
-            raise BadFile("the saved run had other parts in its bin than this world")
+            raise BadFile(
+                "the parts in the bin of the saved run differ from the parts in the bin of this world"
+            )
 
     def restore(self, state: Poured) -> None:
         self.poured = state
@@ -218,7 +220,7 @@ def parts_of(plan: MlPlan) -> int:
     """
     if plan.variant.isdecimal() and 1 <= int(plan.variant) <= MOST:
         return int(plan.variant)
-    raise NoSuchName(f"the bin takes from 1 to {MOST} parts, not {quoted(plan.variant)}")
+    raise NoSuchName(f"the bin holds 1 to {MOST} parts, not {quoted(plan.variant)}")
 
 
 def _quality(world: ArmWorld, number: int) -> Quality:

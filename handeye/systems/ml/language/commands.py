@@ -143,8 +143,8 @@ _ROWS: Final[dict[Category, tuple[tuple[str, str, str, str], ...]]] = {
     ),
     "data": (
         ("POINT", "", (
-            "A place for the positions of 12 motors. DEFPOINT and JOY fill this place. The statement does nothing when "
-            "it is executed."
+            "A place for the positions of 12 motors. DEFPOINT and JOY fill this place. When POINT is executed, it "
+            "does nothing."
         ), "5 POINT"),
     ),
     "arithmetic": (

@@ -85,7 +85,7 @@ class Typewriter(ArmTask):
     name = "typewriter"
     words = Words(
         product="the rail support with its bar",
-        done="The rail support is assembled from 22 parts and a bar out of the bin.",
+        done="The rail support is assembled from 22 parts, and has a bar that comes from the bin.",
     )
 
     def variation(self) -> Variation:

@@ -59,8 +59,8 @@ def stages(
     In each world, and for each stage, the careful program (`water_pump.al`) first does all earlier stages. A program
     in each language then continues from this state and does the stage, and the referee judges the pump as it is after
     the stage. The figures are: how often the stage was accepted, how often its failure was silent, the arm's time, the
-    peak of the force, the lines of the program, and the CPU time to plan it. Pairs of languages are compared in the
-    worlds that they have in common. A table says which stages only the arm language can express, and why.
+    peak of the force, the lines of the program, and the CPU time to plan it. Each pair of languages is compared in the
+    worlds in which both were tried. A table says which stages only the arm language can express, and why.
 
     The careful program takes about 20 CPU seconds in each world; each stage takes three to ten CPU seconds more.
     Ctrl-C ends the batch and prints the trials that have finished. If you gave --out, repeat the command to continue
@@ -121,8 +121,8 @@ def _chosen(names: Sequence[str] | None, languages: Sequence[str] | None) -> "li
 
 
 def _careful(legs: "Iterable[StageLeg]") -> "StageLeg":
-    """Return the leg in which the careful program does the last stage: the latest of the stages of `legs` and of the
-    stages that several languages can do.
+    """Return the leg in which the careful program does the last stage that is needed. This is the last stage of `legs`
+    or, if it is later, the last stage that several languages can do.
     """
     from handeye.systems.relay.stages.languages import shared, stage_legs, stages
 
@@ -131,7 +131,7 @@ def _careful(legs: "Iterable[StageLeg]") -> "StageLeg":
 
 
 def _run_careful(careful: "Setup", folder: Path, cases: "Sequence[Case]", options: SweepOptions) -> None:
-    """Run the careful program in each world in which a trial is missing, unless the folder has its run."""
+    """Run the careful program in each world in which a trial is missing, unless the folder already has this run."""
     from msgspec.structs import replace
 
     from handeye.trials.folder import kept_trials

@@ -98,17 +98,17 @@ def _sensed(screws: int) -> Iterator[Obligation]:
         Obligation(finding="motor", claims=(claims.motor_off(),), rests=_SERVO),
         Obligation(
             finding="rest", claims=(claims.released(),),
-            rests="The program feels a hanging part only where another finding asks for a touch.",
+            rests="The program notices a hanging part only if another finding requires a touch of this part.",
         ),
     )  # fmt: skip
 
 
 _SLIDES: Final = "A push with more than 40 oz slides the pump on the table."
 _LAYERS: Final = (
-    "An object under a head raises the head. If it raises the head by less than .02 in, it may remain unnoticed; "
-    "the referee allows .012 in."
+    "An object under the head of a screw raises the head. An object that raises the head by less than .02 in may "
+    "remain unnoticed; the referee allows .012 in."
 )
-_CLUTCH: Final = "The clamping force to which a torque leads depends on the friction of thread and head."
+_CLUTCH: Final = "The clamping force that a torque causes depends on the friction of the thread and the head."
 _HOLDER: Final = "If a pin leans or is not in its hole, its end is lower or higher than it should be."
 _RACK: Final = (
     "If the screwdriver leans or hangs on its guides, its end is lower or higher than it should be."
@@ -117,7 +117,7 @@ _BEARING: Final = (
     "Only the height of the crank pin's end is felt. A bent crank may remain unnoticed, and so may a rotor that is "
     "out of its bearing by less than .07 in; the referee allows .004 in."
 )
-_SERVO: Final = "Arm and hand have no command left, because each step waits for the end of its motion."
+_SERVO: Final = "No command to the arm or the hand is still to be executed, because each step waits for the end of its motion."
 _UNSENSED: Final = {
     "screws_hold": "A test of whether a screw holds would loosen the screw.",
     "threads_scarred": "The arm does not feel a scar; the referee only warns of one.",
@@ -137,4 +137,4 @@ _UNSENSED: Final = {
     "held": "In the simulation, only the arm acts on the parts.",
     "numbers": "In the simulation, all numbers are finite.",
 }
-"""Findings that no program is asked to show, and for each the reason."""
+"""Findings that no program is asked to show, each with the reason."""

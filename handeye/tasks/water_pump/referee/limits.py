@@ -63,7 +63,7 @@ farther.
 PIN_PLACE: Final = 3.0  # mm from its place in the holder: the holder's hole and its bevel
 PIN_SEATED: Final = 1.0
 """Greatest distance (mm) of the middle of a pin's shoulder from the mouth of its hole in the base: the depth of the
-chamfer. A pin that stands in the chamfer, or beside its hole, is at least 19 mm high.
+chamfer. If a pin stands in the chamfer, or beside its hole, this distance is at least 19 mm.
 """
 PIN_LEAN: Final = 2.0
 """Greatest tilt (degrees) of a pin in its hole in the base. With .05 mm of play, a nose of 19 mm can tilt by .3
@@ -101,9 +101,10 @@ HAND_CLEAR: Final = 25.0  # mm from the hand to any part: a hand that holds or t
 
 APART: Final = 3.0  # mm from where the run found a part: the next run must find the part there again
 APART_GASKET: Final = 6.0
-"""Greatest distance of the returned gasket from its original position (mm). Fingers that close on the gasket on its
-stand draw it along before they lift it: by 3.3 mm in the world of seed 0. The gasket is laid back where it was lifted.
-If it were displaced by 6.4 mm, the fingers of the next run would not fit into its holes.
+"""Greatest distance of the returned gasket from its original position (mm). When the fingers close on the gasket, they
+first drag it along its stand, by 3.3 mm in the world of seed 0, and then lift it. The arm returns the gasket to the
+place from which it was lifted. If the gasket were displaced by 6.4 mm, the fingers of the next run would not fit into
+its holes.
 """
 APART_TURN: Final = 3.0
 """Greatest turn (degrees) of a part. At this turn, the end of a part of the base's length has moved by half of the
