@@ -24,8 +24,8 @@ noise of both.
 """
 PATH_SHARE: Final = 0.013
 """Tolerance for the difference between the two sensors, as a fraction of the path of the joint: three standard
-deviations of the scale error of a potentiometer at the high level. The stated deviation is .22 %, and the high level
-doubles it.
+deviations of the scale error of a potentiometer in a world of the level `high`. The stated standard deviation is .22
+%, and the level `high` doubles it.
 """
 JUMP_STEPS: Final = 4.0
 """Tolerance, in converter steps, for a change of the potentiometer reading that the tachometer does not show, within

@@ -19,8 +19,8 @@ from handeye.core.pose import Array, Pose, inverse, pose
 from handeye.core.small_arrays import span
 
 STRAIGHTENING: Final = 1.33
-"""Turn (rad) in which the lean of a screw falls to 1/e. Our choice: after a whole turn, a hundredth of the lean is
-left.
+"""Angle (rad) through which a screw turns while its lean falls to 1/e. Our choice: after a whole turn, a hundredth of
+the lean is left.
 """
 _STRAIGHT: Final = 1e-6  # in rad or m: a lean smaller than this is set to zero
 

@@ -91,4 +91,4 @@ photograph of many exposures.
 TONES: Final = np.rint(
     255 * np.clip(FILMS["colour"].developed((np.arange(256) / 255) ** GAMMA), 0, 1)
 ).astype(np.uint8)
-"""Value of a point on colour film for each of the 256 values of a point of the screen."""
+"""For each of the 256 values that a point of the screen can have: the value of this point on colour film."""

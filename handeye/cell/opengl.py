@@ -41,10 +41,10 @@ _QUALITY: Final = {"shadowsize": 4096, "offsamples": 0, "numstacks": 2}
 
 More samples and rings would have no effect, because four fine points are averaged and the vidicon blurs the picture.
 The points of the shadow map are .7 mm wide on the table, half a point of a picture. The points of a map of 1024 points
-would be 2.8 mm wide: a pump that is pushed by .1 mm then changes whole blocks at the edges of its shadows. With the
-map of 1024 points, corresponding squares of two pictures differed by up to 2.6 levels. With the map of 4096 points,
-and with ray casting, the squares differed by up to 1.0 level (seed 15, 30 pictures each). The finer map adds .05 s to
-a picture.
+would be 2.8 mm wide: if a pump were pushed by .1 mm, whole squares at the edges of its shadows would change. With the
+map of 1024 points, corresponding squares of two pictures differed by up to 2.6 levels. With the map of 4096 points, or
+with ray casting, the squares differed by up to 1.0 level (seed 15, 30 pictures each). With the finer map, a picture
+takes .05 s longer.
 """
 
 

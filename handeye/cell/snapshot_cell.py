@@ -109,5 +109,5 @@ class SnapshotCell:
         if not 0 <= state.time < 1e9:
             raise ValueError("the saved clock shows an impossible time")
         if set(state.mechanisms) != {part.name for part in self._mechanisms}:
-            raise ValueError("the saved state has different devices or mechanisms")
+            raise ValueError("the saved state belongs to a cell with other devices or mechanisms")
         check_noise(state.noise)

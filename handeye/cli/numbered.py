@@ -26,7 +26,7 @@ class LinePrinter(Observer):
 
 
 def shown_without_errors(found: list[Diagnostic], source: Source) -> bool:
-    """Print the mistakes of a program. Returns True if there are no errors."""
+    """Print the errors and warnings of a program. Returns True if there are no errors."""
     show(found, source, json=False)
     return not has_errors(found)
 

@@ -1,4 +1,4 @@
-"""One sentence for each kind of mistake in a command line, from the data of the parser."""
+"""Makes one sentence of each mistake in a command line, from what the parser reports."""
 
 from collections.abc import Iterable
 from typing import Final, Literal, get_args, get_origin

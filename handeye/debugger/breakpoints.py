@@ -35,8 +35,8 @@ def breakpoint(text: str, listing: Listing) -> AnyStop:
     if error := _ERROR.fullmatch(text):
         if not listing.errors:
             raise Refused(
-                "no step of this program raises an error, so there is no error for a breakpoint; the run pauses "
-                "whenever the program stops"
+                "no step of this program raises an error, so no breakpoint can wait for an error; even without a "
+                "breakpoint, the run pauses if the program calls the operator"
             )
         return _on_error(error["number"] or error["any"], listing)
     place = named_place(text, listing)

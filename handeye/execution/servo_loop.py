@@ -54,12 +54,12 @@ _AT_ONCE = 15
 acts up to .25 s late.
 """
 LIGHT = 5.0
-"""Greatest load (N) with which the drag of joints is judged. If the hand lost a heavier load, the loss would look like
-drag above the limit. The load is our choice.
+"""Greatest load in the hand (N) at which the servo loop judges the drag of the joints. If the hand lost a heavier
+load, the loss would look like drag above the limit. The value is our choice.
 """
 SWING = 0.3
-"""A joint swings if it has been off its set-point on both sides by at least this fraction of the limit. A joint that
-is stopped is off only on one side. The fraction is our choice.
+"""A joint swings if it has been off its set-point on both sides, each time by at least this fraction of its greatest
+permitted following error. A joint that an object stops is off only on one side. The fraction is our choice.
 """
 PRESS_TIME = 10.0
 """Time (s) after which a pressing motion ends if it neither advances nor trips its guard. Our choice."""

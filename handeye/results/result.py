@@ -180,8 +180,8 @@ class Result(Record, frozen=True, kw_only=True):
     figures: dict[str, float] | UnsetType = UNSET
     """Figures that the system of the run adds. The keys are their names."""
     built: dict[str, Check] | UnsetType = UNSET
-    """Findings on the finished work of a job, before the job undid the work; `referee` has the findings after the
-    undoing.
+    """Findings on the finished work of a job that then undid its work. `referee` has the findings on the state after
+    the undoing.
     """
     legs: tuple[LegResult, ...] | UnsetType = UNSET
     """The legs of a relay, in order; set only if the run is a relay."""

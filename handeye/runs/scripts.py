@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from handeye.planning.planner import PlannedScript
 
 LANGUAGES: Final = {".al": AL}
-"""Languages of scripts by file ending; a file with another ending is read in the first language."""
+"""Languages of scripts by file ending. A file with any other ending is read in the first language of this table."""
 
 UNNAMED: Final = "script.al"  # name of a text that comes from no file
 

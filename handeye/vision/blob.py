@@ -153,8 +153,8 @@ class _Side:
         """`side` is the index of the side among the four numbers of a box."""
         self.number, self.upright, self.backwards = side, side % 2 == 0, side < 2
         self._clear: tuple[int, int, int] | None = None
-        """The last search that found only background: the line from which it looked outwards, and a range on this
-        line.
+        """The last search that found only background: the line from which it looked outwards, and the first and last
+        place of the search on this line.
         """
         self._image, self._read = self._turned(scan.image), self._turned(scan.read)
         across, along, offset = scan.sides.T

@@ -22,8 +22,8 @@ REMEMBERED: Final = (
 )  # fmt: skip
 Memory = dict[str, Any]  # by field of the state
 _UNCHECKED: Final[Memory] = {"done": [], "undoing": None, "unwound": {}, "shots": {}, "found": {}}
-"""Fields that steps do not store. Before the memory of a step is checked, empty fields replace them, because they are
-large and known to be valid.
+"""Fields that steps do not store. These fields are large and known to be valid, so they are replaced by empty ones
+before the memory of a step is checked.
 """
 _TYPES: Final[dict[str, Any]] = get_type_hints(ExecutionState)
 

@@ -82,8 +82,8 @@ RAMP: Final = 8
 was ended by a force did not slow down at its end.
 """
 JOIN: Final = 5e-4
-"""Speed (rad or m per servo period) at which the joints first move to the end of the path. Brakes and guards can leave
-the arm beside the path.
+"""Speed (rad or m per servo period) at which the joints move from the present position to the end of the recorded
+path, before they retrace this path. After brakes or a guard have stopped it, the arm can be beside the path.
 """
 
 

@@ -29,8 +29,8 @@ HOLDER: Final = (15 * INCH, 35 * INCH)
 FACE: Final = base_top()  # height of the face around the hole, m
 CORNERS: Final = 48  # corners of a section of the nose; between two corners, the nose is .005 mm slimmer
 WEDGES: Final = 24
-"""Number of wedges around the hole. Between two wedges, the hole is .02 mm wider. With the rounded nose of the
-pin, the play is .057 to .063 mm instead of .057 mm.
+"""Number of wedges around the hole. Between two wedges, the hole is .02 mm wider, but the nose of the pin is round, so
+the play of the pin grows only from .057 mm to at most .063 mm.
 """
 PUSH: Final = "push"
 """Name of the sensor for the resultant force of all contacts between plate and pin (N), in W; no device reads

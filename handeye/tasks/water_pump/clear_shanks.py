@@ -18,8 +18,8 @@ from handeye.core.small_arrays import span
 from handeye.tasks.water_pump.clamping import LAYERS, Clamping
 
 MARGIN: Final = 1e-4
-"""A shank is left out of the search for contacts if it is at least this distance (m) from the hole. Our choice: more
-than the few micrometres by which welds yield.
+"""A shank is left out of the search for contacts if it is at least this distance (m) from the wall of the hole. Our
+choice: more than the few micrometres by which welds yield.
 """
 
 

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from handeye.systems.ml.background.interpreter import Interpreter
 
 NUMBERS: Final = {code: number for number, code in enumerate(COMMANDS, 1)}
-"""The number that stands for each command in the tables TK, TR and CC."""
+"""The number of each command. The tables TK, TR and CC contain this number instead of the command's name."""
 _SIGN: Final = 8  # the bit above the three bits for the number of ampersands
 _PACKED: Final = 4  # parameters whose forms fit into a word
 

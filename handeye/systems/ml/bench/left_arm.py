@@ -112,7 +112,7 @@ class LeftArm(Axes, Mechanism[LeftState]):
 
     def check(self, state: LeftState) -> None:
         if not {*state.signalled} <= {*INTERLOCKS}:
-            raise BadFile("the saved left arm has different interlocks")
+            raise BadFile("the saved left arm has an interlock that this arm does not have")
 
     def restore(self, state: LeftState) -> None:
         self._signalled = state.signalled

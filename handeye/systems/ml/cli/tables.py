@@ -1,4 +1,4 @@
-"""The command that shows the tables of a machine at any cycle."""
+"""The command that shows the tables of a machine as they were in a given cycle."""
 
 import re
 from pathlib import Path
@@ -51,7 +51,7 @@ def tables(
     ] = None,
     json: Json = False,
 ) -> int:
-    """Show the tables of MOS as they were in any cycle of a run.
+    """Show the tables of MOS as they were in a cycle of your choice.
 
     Everything that MOS knows is in 30 tables. MT has a line for each motor, and ST has one for each sensor; VR has the
     variables, and TK has the program. Every ML run records each word that changes, cycle by cycle. An asterisk marks a

@@ -19,7 +19,7 @@ FAULTS: Final = Catalogue(
     planted(MISSING, "No plate lies on the table.", _NOTHING),
     planted(
         MOVED, "The plate is displaced along x by this distance.", _NOTHING,
-        harmless="The follower finds the plate if the plate lies ahead of it.",
+        harmless="The follower finds the plate if the plate lies ahead of the wand.",
         size=Size(unit="mm", usual=30.0, limits=(-60.0, 60.0)),
     ),
     planted(

@@ -79,8 +79,8 @@ PARTS_VARY: Final = (
         "mm",
         Noise(0.1),
         5.0,
-        "Standard deviation of a part's position on its pallet along x and y. No source: our choice, for .2 mm of "
-        "play.",
+        "Standard deviation of a part's position on its pallet along x and y. No source: our choice, which suits a "
+        "play of .2 mm between part and pallet.",
     ),
     quantity(
         _TURNED,

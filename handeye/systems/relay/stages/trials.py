@@ -167,7 +167,9 @@ class PairLine(Record, frozen=True, kw_only=True):
     only_one: int  # worlds in which only this language was accepted
     only_other: int
     p: float
-    other_takes_s: float | None  # median difference of the arm's time, where both were accepted
+    other_takes_s: (
+        float | None
+    )  # median difference of the arm's time, over the worlds in which both were accepted
     p_time: float | None
 
 
@@ -270,10 +272,11 @@ def _details(rows: Sequence[StageRow]) -> tuple[Details, ...]:
 def _summary(rows: Sequence[StageRow]) -> list[str]:
     stages_here = {row.of for row in rows}
     return [
-        "Low and high: Wilson's interval, 95 %. The arm's time and the peaks are those of accepted trials. A peak is "
-        "the greatest resultant force of all contacts on the arm at the end of a servo period; it includes the weight "
-        "of a held part. To plan: CPU time of this computer to plan, teach or read the whole program. p: McNemar's "
-        "exact test; p of time: Wilcoxon's signed-rank test, where both were accepted.",
+        "Low and high: Wilson's interval, 95 %. The arm's time and the peaks are those of accepted trials. A peak "
+        "is the greatest resultant force of all contacts on the arm at the end of a servo period; it includes the "
+        "weight of a held part. To plan: CPU time of this computer to plan, teach or read the whole program. p: "
+        "McNemar's exact test; p of time: Wilcoxon's signed-rank test, over the worlds in which both languages "
+        "were accepted.",
         *(
             f"no leg: {stage}, {language}: {why}"
             for (stage, language), why in WITHOUT_LEG.items()

@@ -83,7 +83,7 @@ class Witness(Mechanism[InitialScene]):
         turned = state.turned or state
         alike = {*turned.blocks} == {*state.blocks}
         if not (alike and state.sound and turned.sound and np.isfinite([*state.taught.values()]).all()):
-            raise BadFile("the recorded place before the run is not valid")
+            raise BadFile("the recorded scene before the run is not valid")
 
     def restore(self, state: InitialScene) -> None:
         self.began = state

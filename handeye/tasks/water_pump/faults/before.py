@@ -276,7 +276,9 @@ def _screwdriver_and_light() -> Iterator[PartFault]:
         ExpectedDetection(calls=(detect.loose_screw(1),)),
     )  # fmt: skip
     yield _fault(
-        "light.shadow", "A card in the light casts the edge of its shadow across the base.", scene.shade,
+        "light.shadow", (
+            "A card hangs between the lamp and the base, and the edge of its shadow crosses the base."
+        ), scene.shade,
         detect.POOR_LIGHT,
     )  # fmt: skip
 
