@@ -26,8 +26,8 @@ PLATFORMS: Final = (
     ("EGL", "mujoco.egl", ("libEGL.so.1",), ("libOpenGL.so.0", "libGL.so.1")),
     ("OSMesa", "mujoco.osmesa", ("libOSMesa.so.8", "libOSMesa.so"), ()),
 )
-"""For each platform: its name, its module, and the libraries that it needs. Each library has alternatives; one of them
-is enough.
+"""For each platform: its name, its module, and the libraries that it needs. For each library, the alternatives are
+listed; the platform needs only one of these alternatives.
 """
 SETTINGS: Final = ("EGL_", "GALLIUM_", "LIBGL_", "MESA_", "MUJOCO_EGL_", "PYOPENGL_", "__EGL_", "__GLX_")
 """Prefixes of the environment variables by which a user selects a device or a driver."""
@@ -180,7 +180,7 @@ def context() -> tuple[str, Any]:
                 continue
             return name, gl
     if present and set_here:
-        reasons.append(f"try without {' and '.join(set_here)} in the environment")
+        reasons.append(f"run handeye again without {' and '.join(set_here)} in the environment")
     if not reasons:
         reasons.append("on Debian, install libegl1, libgl1-mesa-dri and libopengl0")
     raise Refused(

@@ -75,8 +75,8 @@ def assembly_trials(
     cpu_limit: Annotated[
         float,
         Parameter(
-            help="CPU seconds after which a trial ends unfinished. Time in which the computer sleeps or does "
-            "other work does not count."
+            help="CPU seconds after which a trial ends unfinished. While the computer sleeps or does other work, no "
+            "time is counted."
         ),
     ] = 1800.0,
     options: SweepOptions = ANY,

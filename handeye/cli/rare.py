@@ -100,7 +100,9 @@ class SampleOptions:
         if self.scheduler is not None and self.engine != "dask":
             raise BadArgument("--scheduler needs --engine dask")
         if checked_seed(self.seed) > LARGEST_SEED - self.n:
-            raise BadArgument(f"--seed {self.seed} leaves fewer than {self.n} seeds")
+            raise BadArgument(
+                f"there are fewer than {self.n} seeds from --seed {self.seed} to the largest seed, {LARGEST_SEED}"
+            )
         if self.out is not None and self.out.suffix.lower() in (".html", ".csv", ".json"):
             raise BadArgument(f"--out {self.out} looks like a file; a search needs a folder")
 

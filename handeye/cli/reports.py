@@ -89,7 +89,7 @@ def write_report(run: Path, place: Path, *, overwrite: bool) -> None:
 
 
 def page_of(run: Path) -> bytes:
-    """The page of the run in a folder or a trace; raises InvalidInput if there is none."""
+    """The page of the run in a folder or a trace. Raises InvalidInput if the folder or file contains no run."""
     from handeye.core.entries import entry_named
     from handeye.report.animation import animation
     from handeye.report.page.document import account_page, report_page

@@ -33,7 +33,10 @@ def view(
     demo: Annotated[
         bool,
         Parameter(
-            negative="", help="Insert a pin into a hole, in real time; this program takes no pictures."
+            negative="",
+            help=(
+                "Run a program of handeye's own, in real time: it inserts a pin into a hole, and takes no pictures."
+            ),
         ),
     ] = False,
     teach: Annotated[

@@ -82,7 +82,9 @@ class ErrorOptions:
         return any_task(DEFAULT) if self.task is None else named(self.task)
 
     def of(self, name: str) -> Self:
-        """The same options for the task that a plan or run records. The method imports no task module."""
+        """These options, with the task that a plan or run records instead of their own. The method imports no task
+        module.
+        """
         return replace(self, task=any_task(name).name)
 
     def spec(self, seed: int) -> WorldSpec:
@@ -186,7 +188,7 @@ class WorldOptions:
         return replace(self, errors=replace(self.errors, task=None)) != ANY_WORLD
 
     def of(self, name: str) -> Self:
-        """The same options for the task called `name`."""
+        """These options, with the task called `name` instead of their own."""
         return replace(self, errors=self.errors.of(name))
 
     @property

@@ -57,8 +57,8 @@ class Job(Record, frozen=True, kw_only=True):
     """Faults, one of which is planted at the start. The seed chooses the fault and its size."""
     sizes: tuple[float, float] = (0.0, 0.0)  # least and greatest size of a planted fault, in the fault's unit
     steps: Mapping[str, tuple[str, ...]] = msgspec.field(default_factory=dict)
-    """Steps of the work, in their order. The key is the name of a step. The value gives the beginnings of the names of
-    the findings that hold if the step is done.
+    """Steps of the work, in their order. The key is the name of a step. If the step is done, certain findings hold;
+    the value gives the beginning of each finding's name.
     """
 
     def requires(self, finding: str) -> bool:

@@ -145,8 +145,9 @@ SEARCHES: Final = (
     HoleSearch(5, True, 0.20),
     HoleSearch(5, True, 0.20, face=0.4),
 )
-"""Searches, in the order in which they are tried. Starting with a small contrast would find more false holes. The last
-search is for pictures in which the shadow of the arm falls across the face. The vision study had no such pictures.
+"""Searches, in the order in which they are tried. The searches for a large contrast come first, because a search for a
+small contrast finds more false holes. The last search is for pictures in which the shadow of the arm falls across the
+face; the vision study had no pictures of this kind.
 """
 
 

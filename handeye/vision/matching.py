@@ -21,7 +21,7 @@ from handeye.vision.base import Failure, PartMatch, silhouettes
 from handeye.vision.camera_model import View, in_picture
 
 MOVED: Final = 0.03 * INCH
-"""Greatest apparent movement (m) of a part that still counts as no movement.
+"""Largest apparent movement (m) of a part; up to this value, the part counts as unmoved.
 
 From one picture to the next, a pump at rest seems to move by .02 to .07 mm. A pump that is pushed against its blocks
 moves by .13 to .16 mm (worlds of seeds 3 and 15 at the nominal level). The limit must be below .05 in, because a base

@@ -36,8 +36,8 @@ PATIENCE: Final = 120  # servo periods within which a screw must begin to rise
 
 
 LOWER: Final = 0.002
-"""Greatest descent (m), made in one second, to check that there is a screw under the bit: half the height of the
-head of the screw.
+"""The bit descends by at most this distance (m), within one second, to check that there is a screw under it. The
+distance is half the height of the screw's head.
 """
 
 

@@ -165,8 +165,8 @@ def _not_found(cause: c.SightCause) -> str:
             return "the part is not in the field of the close picture: is the camera aimed at it?"
         case c.FaintPicture():
             return (
-                f"the earlier picture is too faint to compare: its contrast on the part is {cause.contrast:.1f} grey "
-                f"levels, at least {cause.least:.1f} are needed; check camera and light"
+                f"the earlier picture is too faint to compare: its contrast on the part is {cause.contrast:.1f} "
+                f"grey levels, but at least {cause.least:.1f} are needed; check camera and light"
             )
         case c.NoHoles(blobs=0):
             return "found no hole: is the picture in focus, and is the part in it?"

@@ -1,4 +1,4 @@
-"""The commands of all jobs on the board: one world, and many."""
+"""The commands of all jobs on the board. Each job has a command for one world and a command for many worlds."""
 
 from functools import partial
 from pathlib import Path
