@@ -117,7 +117,9 @@ _BEARING: Final = (
     "Only the height of the crank pin's end is felt. A bent crank may remain unnoticed, and so may a rotor that is "
     "out of its bearing by less than .07 in; the referee allows .004 in."
 )
-_SERVO: Final = "No command to the arm or the hand is still to be executed, because each step waits for the end of its motion."
+_SERVO: Final = (
+    "The arm and the hand have executed all commands, because each step waits for the end of its motion."
+)
 _UNSENSED: Final = {
     "screws_hold": "A test of whether a screw holds would loosen the screw.",
     "threads_scarred": "The arm does not feel a scar; the referee only warns of one.",
