@@ -132,8 +132,8 @@ _UNSENSED: Final = {
         "The program does not measure whether the arm is at rest; the servo ends each motion at rest, or raises an "
         "error."
     ),
-    "overlap_bores": "It is a property of the simulation: solids do not pass through each other.",
-    "overlap": "It is a property of the simulation: solids do not pass through each other.",
+    "overlap_bores": "In the simulation, solids do not pass through each other.",
+    "overlap": "In the simulation, solids do not pass through each other.",
     "as_drawn": "In the simulation, no part changes during a run.",
     "bonds": "In the simulation, bonds open and close only as the work requires.",
     "held": "In the simulation, only the arm acts on the parts.",
