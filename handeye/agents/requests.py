@@ -193,7 +193,7 @@ class Fork(Request, frozen=True, kw_only=True):
         Meta(
             max_length=200,
             description=(
-                "Begin the new run before this stage. Default: begin at the present state of the run."
+                "The new run begins with this stage. Default: it begins at the present state of the run."
             ),
         ),
     ] = ""

@@ -79,7 +79,7 @@ def assemble(
     no_keep: NoKeep = False,
     camera: Camera = "auto",
     report: Annotated[
-        bool, Parameter(help="Also write report.html, a page of the run, in the folder.")
+        bool, Parameter(help="Also write report.html, a page about the run, into the folder of the run.")
     ] = False,
     calibrate: Calibrate = False,
     on_stop: OnStop = None,

@@ -140,8 +140,8 @@ def disturbed_trials(
     """Disturb a finished pump without telling the program, then take the pump apart: does a guard stop the arm before
     the arm does damage?
 
-    The stop is in time if, up to the stop, no part outside the hand moved by more than 2 mm in one step, and the
-    hand felt at most 60 N. Each trial first builds the pump, which takes one CPU minute.
+    A stop is in time if, before it, no part outside the hand moved by more than 2 mm in one step, and the hand felt at
+    most 60 N. Each trial first builds the pump, which takes one CPU minute.
 
     Exit code 0: every trial was stopped in time; 3: a trial was not stopped in time; 2: bad input; 130: interrupted.
     """

@@ -208,8 +208,8 @@ class ExecutionState(SystemState, kw_only=True):
     """Executed steps that have not been reversed, in order."""
     undoing: ReversalOrder | None = None  # the reversal in progress
     lets_go: Natural | None = None
-    """Index of the step in which the hand picked up the screw that has just been turned out. The reversal of that step
-    leaves the screw in its place.
+    """Index of the step in which the hand picked up the screw that has just been turned out. When this step is
+    reversed, the hand leaves the screw where it picked it up.
     """
     held: float | None = None
     """Gap (m) at which the hand holds an object during a reversal. None if the hand holds no object, or after the

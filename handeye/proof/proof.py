@@ -39,8 +39,8 @@ class ClaimProof(Record, frozen=True, kw_only=True):
     """
     way: tuple[WayStep, ...] = ()  # a shortest path to the end that avoids the claim
     leaves: int | None = None
-    """Index, in the path, of the last step from which some other path leads to a step that shows the claim. None if no
-    step of the path has another path of this kind.
+    """Index, in the path, of the last step at which the path could still have branched off to a step that shows the
+    claim. None if there is no such step.
     """
     undone: int | None = None
     """Index, in the path, of the last step after which the claim must be shown again; None if no step requires this."""

@@ -23,7 +23,9 @@ from handeye.tasks.stanford_cell.dimensions import PARK, base_top, dimensions, p
 from handeye.tasks.stanford_cell.shapes import Bore, Shaper, add_camera
 
 HOLE: Final = (25 * INCH, 38 * INCH)
-"""Position of the hole as taught to the program (m): the position of a hole in the pump's base."""
+"""Position of the hole (m) as taught to the program. A hole in the base of the pump has the same position in the
+pump's cell.
+"""
 HOLDER: Final = (15 * INCH, 35 * INCH)
 """Position of the holder with the pin (m): as in the pump's cell."""
 FACE: Final = base_top()  # height of the face around the hole, m

@@ -58,9 +58,10 @@ def stages(
 
     In each world, and for each stage, the careful program (`water_pump.al`) first does all earlier stages. A program
     in each language then continues from this state and does the stage, and the referee judges the pump as it is after
-    the stage. The figures are: how often the stage was accepted, how often its failure was silent, the arm's time, the
-    peak of the force, the lines of the program, and the CPU time to plan it. Each pair of languages is compared in the
-    worlds in which both were tried. A table says which stages only the arm language can express, and why.
+    the stage. The figures are: how often the referee accepted the stage, how often the stage failed silently, the
+    arm's time, the peak of the force, the number of lines of the program, and the CPU time to plan the program. Each
+    pair of languages is compared in the worlds in which both were tried. A table says which stages only the arm
+    language can express, and why.
 
     The careful program takes about 20 CPU seconds in each world; each stage takes three to ten CPU seconds more.
     Ctrl-C ends the batch and prints the trials that have finished. If you gave --out, repeat the command to continue

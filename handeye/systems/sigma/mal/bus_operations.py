@@ -64,8 +64,8 @@ class BusOperations:
     def _do_beam(self, name: str, task: TaskMemory, __: Instruction) -> None:
         arm = task.stack.pop()
         if arm not in range(1, 1 + self.program.hands):
-            arms = "arms 1 and 2" if self.program.axes == AXES else f"hands 1 to {self.program.hands}"
-            raise Trap(f"there is no arm {arm:g}, only {arms}")
+            beams = "1 and 2" if self.program.axes == AXES else f"1 to {self.program.hands}"
+            raise Trap(f"there is no light beam {arm:g}, only {beams}")
         self._push(task, float(self.ask(name, protocol.beam(int(arm)))[0]))
 
     # -- commands ---------------------------------------------------------------------------------------
