@@ -37,8 +37,8 @@ def mutant_trials(
     checkpoints: Annotated[
         Path | None,
         Parameter(
-            help="Folder of the fault-free run that the runs start from; created if missing, and kept afterwards. "
-            "Needed unless --most is 0."
+            help="Folder of the fault-free run. The runs of the mutants start from the checkpoints in this folder. "
+            "The command creates the folder if it is missing, and keeps it. Needed unless --most is 0."
         ),
     ] = None,
     world: WorldOptions = ANY_WORLD,

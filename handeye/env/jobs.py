@@ -54,7 +54,7 @@ class Job(Record, frozen=True, kw_only=True):
     out.
     """
     plants: tuple[str, ...] = ()
-    """Faults, one of which is planted at the start. The seed chooses the fault and its size."""
+    """The faults from which the seed chooses one, with its size. This fault is planted at the start."""
     sizes: tuple[float, float] = (0.0, 0.0)  # least and greatest size of a planted fault, in the fault's unit
     steps: Mapping[str, tuple[str, ...]] = msgspec.field(default_factory=dict)
     """Steps of the work, in their order. The key is the name of a step. If the step is done, certain findings hold;

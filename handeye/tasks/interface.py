@@ -94,7 +94,7 @@ class AnyTask(ABC):
     force_axes: str = "world axes"  # axes of the hand's force in traces
     measures: Measures = INCHES  # display units for runs of the task
     holds_from: Mapping[str, int] = MappingProxyType({})
-    """Findings that must hold before the work is finished. The key is the beginning of the finding's name; the
+    """Findings that must already hold while the work is unfinished. The key is the beginning of the finding's name; the
     value is the number of the stage, in the task's own program, after which the finding must hold.
     """
     judges_stopped = False
