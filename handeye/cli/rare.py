@@ -259,7 +259,7 @@ def worst_trials(
     ] = 24,
     options: SampleOptions = ANY_SAMPLE,
 ) -> int:
-    """Find the nearest worlds in which a program fails, and the quantities that make it fail.
+    """Find the failing worlds whose errors are smallest, and the quantities that make the program fail.
 
     The levels are those of `trials rare`, so this command can continue the work in a folder that `trials rare` wrote.
     In each of the nearest failing worlds, the command then returns the quantities to the middle of their ranges,
