@@ -105,7 +105,7 @@ CODES: Final[dict[str, Code]] = {
     "line-too-long": _error("a line is too long", f"OPEN 1\n;{'-' * 1000}"),
     "load-beyond-arm": _planning("a load is heavier than the arm can hold", "LOAD 900\nMOVE T"),
     "macro-ends-early": _warning(
-        "a macro ends with a modifier, and the blank line after it separates the modifier from its motion",
+        "a macro ends with a modifier, and the blank line that ends the macro separates the modifier from its motion",
         "DEFINE DOWN\nSTOP 50\n\nCHANGE Z -1\n\nMOVE T\nDOWN\nPARK",
     ),
     "macro-name-taken": _error("a macro has the name of an instruction", "DEFINE OPEN\nPARK\n\nPARK"),
