@@ -112,9 +112,10 @@ def scattered(arm: ArmModel, M: Array, friction: Array, rates: Array) -> Scatter
     """Find the joint whose rate readings, shape (N, n), scatter most while the arm holds still. Returns None if all
     scatter is tolerable.
 
-    The median ignores a single jerk, for example when a held part slips. A joint whose friction, shape (n,), in N m or
-    N, is less than half a step of its torque converter may swing at rest: its torque then alternates between two
-    neighbouring steps. `M` is the mass matrix, shape (n, n).
+    The scatter is the median distance of the readings from their own median, so a single jerk, for example when a held
+    part slips, has no effect. A joint whose friction, shape (n,), in N m or N, is less than half a step of its torque
+    converter may swing at rest: its torque then alternates between two neighbouring steps. `M` is the mass matrix,
+    shape (n, n).
     """
     scatter = np.median(np.abs(rates - np.median(rates, axis=0)), axis=0)
     swing = np.diag(np.linalg.inv(M)) * torque_step(arm) / 2 * arm.servo.period

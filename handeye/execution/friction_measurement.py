@@ -150,8 +150,8 @@ def _drag(drive: ArmDrive, periods: list[ServoPeriod], way: Pass) -> _PassTorque
 
 
 def _profile(way: Pass, period: float) -> Array:
-    """Return the rate at the end of each servo period, as a fraction of the constant rate. The profile is symmetric
-    in time.
+    """Return the rate at the end of each servo period, as a fraction of the constant rate of the pass. The profile is
+    symmetric in time.
     """
     ramp, measured = round(RAMP / period), round(way.seconds / period)
     rise = np.linspace(0.0, 1.0, ramp + 1)

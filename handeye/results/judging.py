@@ -86,8 +86,8 @@ def check_limits(runner: Runner) -> None:
 
 
 def limited(findings: Findings, limits: Limits) -> Findings:
-    """Return the findings. If `limits` contains a limit for a finding, this limit replaces the finding's own limit.
-    Raises InvalidInput if a limit belongs to no finding.
+    """Return the findings with other limits. If `limits` contains a limit for a finding, this limit replaces the
+    finding's own limit. Raises InvalidInput if a limit belongs to no finding.
     """
     found = dict(findings)
     for name, limit in limits.items():

@@ -40,7 +40,7 @@ class Link:
     # -- the side of the run --------------------------------------------------------------------------
 
     def lines(self, aside: Callable[[], AbstractContextManager[None]]) -> Iterator[str]:
-        """Yield lines for a paused run. Each pause resets the panic button."""
+        """Yield the lines that viewers send to a paused run. Each pause resets the panic button."""
         while True:
             self._set_going(False)
             with aside():

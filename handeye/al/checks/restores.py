@@ -18,7 +18,9 @@ from handeye.program.motion_operations import Move
 
 
 def check_restores(lowered: Lowered, graph: Graph) -> Iterator[Diagnostic]:
-    """Report RESTOREs that are wrong in every call. Names without any SAVE are left to `check_names`."""
+    """Report RESTOREs that are wrong in every call. A name without any SAVE is not reported here, because
+    `check_names` reports it.
+    """
     saves = {number: _name(lowered.origins[number]) for number in graph.which(Save)}
     first: dict[str, Name] = {}
     for save in saves.values():

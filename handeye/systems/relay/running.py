@@ -198,9 +198,9 @@ class RunningRelay(RunningSystem):
         self._go_on()
 
     def _go_on(self, *, undoing: bool = False) -> None:
-        """Follow the program that has the arm. If the leg of this program has ended, hand the arm over to the next
-        leg. If `undoing` is True, the last step was an undo, which may have gone back into an earlier leg of the same
-        program.
+        """Update the relay after a step of the program that has the arm. If the leg of this program has ended, hand
+        the arm over to the next leg. If `undoing` is True, the last step was an undo, which may have gone back into an
+        earlier leg of the same program.
         """
         self._mirror(undoing=undoing)
         if undoing or self._running.state.stopped is not None or self._running.state.stage is not None:

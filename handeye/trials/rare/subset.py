@@ -155,7 +155,9 @@ class _Walk:
         self._step = min(1.0, max(SMALLEST_STEP, step))
 
     def _candidate(self, point: Point) -> Point:
-        """Propose a world. If every proposal were accepted, the numbers would stay independent and standard normal."""
+        """Propose a world. If every proposal were accepted, the numbers of the worlds would stay independent and
+        standard normal.
+        """
         drawn, kept = self._rng.standard_normal(len(point.numbers)), math.sqrt(1 - self._step**2)
         redrawn, noise = self._rng.random() < REDRAWN, int(self._rng.integers(LARGEST_SEED, endpoint=True))
         return Point(kept * point.numbers + self._step * drawn, noise if redrawn else point.noise)

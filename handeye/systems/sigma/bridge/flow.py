@@ -105,7 +105,7 @@ Tests = Mapping[int, ForceTest]
 
 
 def flow(lines: Sequence[Line], tests: Tests) -> dict[int, Before]:
-    """Return what holds before each line that can be reached, by the number of the line."""
+    """Return what is known before each line that can be reached. The keys are the numbers of the lines."""
     by_number = {line.number: line for line in lines}
     after = dict(pairwise(by_number))
     holds: dict[int, Before] = {lines[0].number: Before()} if lines else {}
