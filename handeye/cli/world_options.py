@@ -172,7 +172,7 @@ class WorldOptions:
 
     @property
     def task(self) -> str | None:
-        """The task given as an option. If there is none, the task in the file of the world; None if neither was given."""
+        """The task given as an option, or else the task in the file of the world; None if neither was given."""
         if self.errors.task is None and self.file is not None:
             return read_world(self.file).task
         return self.errors.task
