@@ -111,9 +111,9 @@ class SimulatedArm(Mechanism[ArmState], ArmPort):
         """Make an arm at a given posture, shape (n,), in rad or m. Its brakes are set. `noise` generates the noise of
         the arm's sensors.
 
-        The lines of an arm are `potentiometer.N`, `tachometer.N`, `drive.N`, `brake.N` and `friction.N` for joint
-        N. The lines `force.x`, `force.y` and `force.z` offset the drives by the torques of a force at the hand (N,
-        in W). Torques from the computer arrive only while the line `servo` carries 1.
+        The signal lines of an arm are `potentiometer.N`, `tachometer.N`, `drive.N`, `brake.N` and `friction.N` for
+        joint N. The lines `force.x`, `force.y` and `force.z` offset the drives by the torques of a force at the hand
+        (N, in W). Torques from the computer arrive only while the line `servo` carries 1.
         """
         self.name = prefix.rstrip("/")
         names = [f"{prefix}j{number}" for number in range(1, len(arm.joints) + 1)]

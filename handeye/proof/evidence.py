@@ -104,7 +104,7 @@ class Evidence(Record, frozen=True, kw_only=True, tag=True):
     operations: ClassVar[tuple[type[Operation], ...]]  # to which the kind can apply
 
     def shown(self, passed: Passed) -> Answer:
-        """Say whether an executed step with this outcome is of this kind."""
+        """Say whether the executed step `passed`, with its outcome, is evidence of this kind."""
         raise NotImplementedError
 
     def failed(self, passed: Passed) -> Answer:

@@ -113,7 +113,9 @@ class Level(ABC):
 
     @abstractmethod
     def wand(self, sensor: int) -> None:
-        """Assign the wand to a logical sensor, which expects no contact from now on. Raises MlError (M11)."""
+        """Assign the wand to a logical sensor. From then on, the sensor's flag comes on if the wand touches something.
+        Raises MlError (M11).
+        """
 
     # -- motors ---------------------------------------------------------------------------------------
 

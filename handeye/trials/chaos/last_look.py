@@ -20,7 +20,7 @@ class LastLook:
     """The steps of a program that look at finished work."""
 
     claims: Mapping[str, tuple[ClaimProof, ...]]  # by the finding that rests on them
-    unnoticed: Mapping[str, float]  # by finding: its value up to which a failure may remain unnoticed
+    unnoticed: Mapping[str, float]  # by finding: the largest value at which a failure may remain unnoticed
 
     def passed(
         self,

@@ -39,7 +39,7 @@ class NearWorld(Record, frozen=True, kw_only=True):
 
 class Push(Record, frozen=True, kw_only=True):
     """How far one quantity lies, on average, from its middle value in failing worlds, in standard deviations. The
-    signs tell whether the program fails mostly at greater or at smaller values of this quantity.
+    signs show whether the program fails mostly at greater or at smaller values of this quantity.
     """
 
     quantity: str
@@ -104,8 +104,8 @@ def simplified(numbers: Array, groups: Sequence[Sequence[int]], tries: int) -> G
 
 
 def pushes(campaign: Campaign, kind: FailureKind, found: Sequence[NearWorld]) -> list[Push]:
-    """Return, for each quantity, how it pushes the program to fail. The quantity that must deviate in most of the
-    nearest worlds comes first.
+    """Return, for each quantity, how far it deviates from its middle value in the failing worlds. The quantity that
+    must deviate in most of the nearest worlds comes first.
     """
     mine = [each for each in campaign.failing if each.kind == kind]
     if not mine:
