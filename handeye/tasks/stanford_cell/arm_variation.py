@@ -184,8 +184,8 @@ def hand() -> Iterator[Quantity]:
             nominal=2.0, least=0.0),
         group("hand.lamp", {axis: Normal(0.03) for axis in "xyz"}, "in",
             "Deviation of the lamp's position in the hand's frame from the drawing that the camera calibration uses.",
-            unsourced="the lamp is screwed on by hand and set with a rule, which has divisions of 1/64 in. Bound: "
-                "1/16 in, two sigma."),
+            unsourced="the lamp is screwed on by hand and set with a steel rule, which has divisions of 1/64 in. "
+            "Bound: 1/16 in, two sigma."),
     )  # fmt: skip
 
 

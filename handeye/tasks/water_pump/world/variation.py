@@ -129,11 +129,11 @@ def _fixtures() -> Iterator[Quantity]:
             {"x": Normal(0.02), "y": Normal(0.02), "z": Normal(0.01), "yaw": Normal(0.2), "pitch": Normal(0.1),
              "roll": Normal(0.1)},
             ("in", "in", "in", "deg", "deg", "deg"),
-            "Position, height and tilt of the fixture relative to its drawing, as set up with a rule, a square and "
-            "a spirit level. Sigma is the tolerance of ISO 2768-1, class m: .5 mm for lengths of 120 to 400 mm, .3 "
-            "mm for heights of 30 to 120 mm, and 20 minutes of arc for angles whose shorter side is 50 to 120 mm "
-            "long. So a third of the fixtures exceed this tolerance. A rule has divisions of 1/64 in; a spirit "
-            "level is accurate to .5 to 1 mm/m, .03 to .06 deg.",
+            "Position, height and tilt of the fixture relative to its drawing, as set up with a steel rule, a "
+            "square and a spirit level. Sigma is the tolerance of ISO 2768-1, class m: .5 mm for lengths of 120 to "
+            "400 mm, .3 mm for heights of 30 to 120 mm, and 20 minutes of arc for angles whose shorter side is 50 "
+            "to 120 mm long. So a third of the fixtures exceed this tolerance. A steel rule has divisions of 1/64 "
+            "in; a spirit level is accurate to .5 to 1 mm/m, .03 to .06 deg.",
         )  # fmt: skip
 
 
