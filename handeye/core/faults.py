@@ -69,7 +69,7 @@ UNKNOWN: Final = ExpectedDetection()  # no expectation stated
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SpoiledWork:
-    """Finished work that a fault spoils by itself, without a motion of the arm. If the fault spoils the work after the
+    """Finished work that a fault spoils even if the arm does not move. If the fault spoils the work after the
     program's last step that senses this work, the program cannot notice the fault.
     """
 

@@ -90,7 +90,7 @@ class Retry:
 
 @dataclass(frozen=True, slots=True)
 class UnwindOnce:
-    """Lets the arm undo its steps back to the beginning of the stage with this index, once for each stage that
+    """Lets the arm undo its steps back to the beginning of the stage whose index is `stage`, once for each stage that
     fails.
 
     Like `Retry`, this operator counts earlier attempts from the events of the run.

@@ -27,7 +27,7 @@ SHORTEST_LIMIT_S: Final = 1e-6  # Shortest limit that a system distinguishes fro
 
 
 class WorkerLost(HandeyeError):
-    """Raised if the process of a trial was killed, and if the process of the repeated trial was killed too."""
+    """Raised if the process of a trial was killed, the trial was repeated, and the new process was killed too."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -75,7 +75,7 @@ _CURE: Final = (
 
 
 class _Stop(NamedTuple):
-    """Where a step leads: either to a line, or to a later step, which is `here` steps further on."""
+    """Where a step leads: either to a line, or `here` steps further on."""
 
     line: int | None = None
     here: int | None = None

@@ -133,7 +133,10 @@ def loose_screw(number: int) -> str:
 
 
 def driven_loose_screw(number: int) -> str:
-    return f"SCREW {number} STAYS IN ITS HOLE WITHOUT TORQUE: ITS POINT, ITS THREAD OR THE BIT IS WRONG, OR NO TOP IS UNDER IT"
+    return (
+        f"SCREW {number} STAYS IN ITS HOLE WITHOUT TORQUE: "
+        "ITS POINT, ITS THREAD OR THE BIT IS WRONG, OR NO TOP IS UNDER IT"
+    )
 
 
 def high_screw(number: int) -> str:
@@ -169,14 +172,15 @@ def missing_pin(number: int) -> str:
 
 
 def screw_of(hole: int) -> int:
-    """Return the number of the screw that the program drives into a tapped hole. The program leaves hole 7 of
-    the later make of the pump empty."""
+    """Return the number of the screw that the program drives into a tapped hole. The program leaves hole 7 of a pump
+    with seven screws empty.
+    """
     return SCREWED.index(hole) + 1 if hole in SCREWED else hole
 
 
 def if_used(number: int, expected: ExpectedDetection) -> ExpectedDetection:
-    """Return `expected` if the program uses the screw or hole with this number. The later make of the pump has a
-    seventh screw and hole, which the program does not use. For number 7, the expectation is therefore unknown: only
-    the referee reports the faults.
+    """Return `expected` if the program uses the screw or hole with this number. A pump with seven screws has a seventh
+    hole, and the program uses neither this screw nor this hole. For number 7, the expectation is therefore unknown:
+    only the referee reports the faults.
     """
     return expected if number <= len(SCREWED) else UNKNOWN
