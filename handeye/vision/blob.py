@@ -35,8 +35,8 @@ class BoundingBox(NamedTuple):
     def with_piece(self, other: "BoundingBox") -> "BoundingBox | None":
         """Return the box around this box and another. Returns None if the two cannot be pieces of one blob.
 
-        A face in the shade may divide a lit blob into pieces. Two such pieces lie side by side. They are separated by
-        no more than the length of the smaller piece, and the larger piece is most of the blob.
+        A dark face, in the shade, may divide a lit blob into pieces. Two such pieces lie side by side. They are
+        separated by no more than the length of the smaller piece, and the larger piece is most of the blob.
         """
         around = BoundingBox(
             *np.minimum(self[:2], other[:2]).tolist(), *np.maximum(self[2:], other[2:]).tolist()
@@ -161,8 +161,8 @@ class _Side:
         self._window = list(zip(*self._turned_window(across, along, offset), strict=True))
 
     def moves(self, box: list[int], threshold: float) -> bool:
-        """Find a line somewhat farther out that crosses the blob, and move the side to the end of the blob beyond this
-        line. Returns False if no such line crosses the blob.
+        """Find a line that crosses the blob somewhat outside this side of the box, and move the side to the end of the
+        blob beyond this line. Returns False if no such line crosses the blob.
         """
         line = self._line(box[self.number])
         low, high = (box[1], box[3]) if self.upright else (box[0], box[2])

@@ -253,9 +253,9 @@ def _bulge(new: Scan, old: Scan, view: View, centre: Array, hole: Hole, steps: _
     """Measure the bulge (m) of the border in the difference, around the base's hole at `centre` (in metres, shape
     (3,)).
 
-    The bulge is measured from the median radius of the border, because half of the border of a union of two discs is
-    nearly undisturbed. A ray counts only if the border of the base's hole is visible on it in the picture without the
-    gasket, because an aligning pin may hide the border.
+    The border is that of a union of two discs. Half of this border is nearly undisturbed, so the bulge is measured
+    from the median radius. A ray counts only if the border of the base's hole is visible on it in the picture without
+    the gasket, because an aligning pin may hide the border.
     """
     radii, (middle, reach) = [], _seen(view, centre, hole)
     for scan, step, beyond in ((old, steps.before, steps.face), (new, steps.after, 0.0)):

@@ -19,7 +19,9 @@ TOLERANCE_M: Final = 1e-6
 
 @dataclass(frozen=True, slots=True)
 class AlwaysFails:
-    """A step that can never have its effect. `cause` is the step that is to blame, if any."""
+    """A step that can never have its effect. `cause` is the step that prevents the effect; None if no step prevents
+    it.
+    """
 
     code: str
     step: int

@@ -86,7 +86,8 @@ def _inside(joint: Joint, x: float) -> bool:
 
 def _fault(arm: ArmModel, q: list[float]) -> tuple[float, IKResult]:
     """Return the failure of the joint that is farthest beyond its limit, and the time that this joint would take to
-    travel back to its limit. A failure of a prismatic joint is preferred, because no other branch avoids it.
+    travel back to its limit. The failure of a prismatic joint takes precedence, because no other branch avoids this
+    failure.
     """
     outside = [(i, j, x) for i, (j, x) in enumerate(zip(arm.joints, q, strict=True)) if not _inside(j, x)]
     excess = [(j.kind == "prismatic", max(x - j.upper, j.lower - x) / j.speed) for _, j, x in outside]

@@ -92,7 +92,7 @@ def _goes_empty(done: ExecutedStep) -> bool:
 
 
 def without_rounds(done: Sequence[ExecutedStep], hand: Callable[[int], Array | None]) -> Iterator[int]:
-    """Yield the indices of steps in the order of reversal, without the rounds that are skipped."""
+    """Yield the indices of the steps to reverse, in the order of reversal. The steps of skipped rounds are left out."""
     index = len(done) - 1
     while index >= 0:
         yield index
@@ -102,8 +102,8 @@ def without_rounds(done: Sequence[ExecutedStep], hand: Callable[[int], Array | N
 
 
 def _alike(one: ExecutedStep, other: ExecutedStep) -> bool:
-    """Return True if two executed steps are the same step, with the same hold before and after, and with the
-    screwdriver off.
+    """Return True if two executed steps are the same step, if load, grasp and gap were the same in both, and if the
+    screwdriver was off.
     """
     same = (one.step, one.load, one.grasping) == (other.step, other.load, other.grasping)
     gaps = zip(one.gap, other.gap, strict=True)

@@ -77,7 +77,7 @@ def _mark(check: Check) -> tuple[Markup]:
 
 
 def used(check: Check) -> float | None:
-    """Return the fraction of its limit that a value reaches. Returns None for a count, or if the limit is zero."""
+    """Return the ratio of a measured value to its limit. Returns None for a count, or if the limit is zero."""
     if check.unit not in UNITS or check.limit == 0:
         return None
     if check.relation == "at least" and check.limit > 0:
