@@ -70,7 +70,7 @@ class ReplacedCamera(SceneRenderer):
     """A picture maker supplied by the user. The picture maker gets copies of the state, so it cannot change the run."""
 
     def __init__(self, name: str, camera: CameraMaker, model: mujoco.MjModel) -> None:
-        """Make the picture maker of the user for a scene. `name` is the name of the user's code. Raises InvalidInput
+        """Make the user's own renderer for a scene. `name` is the name of the user's code. Raises InvalidInput
         if the object that `camera` returns has no method `render`.
         """
         self.identity = Renderer(method="replaced", platform=name)

@@ -202,8 +202,8 @@ class Catalogue:
 
 
 def _begun(fault: Fault) -> str:
-    """Write when a fault begins, in the form in which users type it. The text is empty if the fault is present from
-    the start.
+    """Return the beginning of a fault in the form in which users type it, such as `@30s`. The text is empty if the
+    fault is present from the start.
     """
     if fault.after is not None:
         return f"@{fault.after:g}s"

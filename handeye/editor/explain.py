@@ -34,8 +34,9 @@ _MAX_FILES = 2  # of the files that an example requires: at most this many are s
 
 
 def explanation(word: str) -> str:
-    """Return the explanation of a code, error number or instruction. Raises NoSuchName, which suggests the
-    nearest name."""
+    """Return the explanation of a code, error number or instruction. Raises NoSuchName if there is no such word; its
+    message suggests the nearest name.
+    """
     if word in CODES:
         return _code(word)
     if word.upper() in EXPLAINED:

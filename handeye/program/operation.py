@@ -47,8 +47,8 @@ class Operation(
 ):
     """Base class of the operations. The class name in lower case is the tag in the plan file.
 
-    The default of a field always means that the operation lacks the property for which the field stands. So a plan
-    from which the field is missing keeps its meaning.
+    Each field stands for a property, and its default means that the operation does not have this property. So a plan
+    keeps its meaning if the field is missing from it.
     """
 
     family: ClassVar[Family] = "other"

@@ -64,7 +64,7 @@ def _paragraph(proof: Proof, finding: FindingProof, program: Program) -> str:
 
 
 def said_of(says: str, claims: Sequence[ClaimProof]) -> str:
-    """Write one clause for claims that differ only in their places."""
+    """Return one clause that states several claims, which differ only in their places."""
     places = [claim.where for claim in claims if claim.where]
     first = {place.split(" ")[0] for place in places}
     if len(places) > 1 and len(first) == 1 and all(place.count(" ") == 1 for place in places):

@@ -164,7 +164,7 @@ def deaf_to_interrupts() -> Iterator[None]:
 
 
 def _heard(workers: list[Worker]) -> list[Worker]:
-    """Wait for workers that have answered or were lost, and return them."""
+    """Wait until at least one worker has answered or is lost. Return these workers."""
     busy = [worker for worker in workers if worker.given is not None]
     told = connection.wait([worker.here for worker in busy])
     return [worker for worker in busy if worker.here in told]

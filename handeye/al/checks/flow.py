@@ -322,7 +322,7 @@ def stale_rounds(graph: Graph) -> Iterator[StaleRound]:
 def _anew(
     graph: Graph, circles: Circles, jump: int, target: int | None, begins: set[int]
 ) -> Iterator[StaleRound]:
-    """Yield the jump that repeats a round, if every round restarts the search or count. Yield nothing if a path
+    """Yield the jump of a loop in which every round restarts the search or the count. Yield nothing if a path
     without a restart leads from `target` to the end of the program, or back to the jump.
     """
     if graph.leads(target, None, without=begins) or graph.leads(target, jump, without=begins):

@@ -60,7 +60,7 @@ class _Descent:
 
 
 def nearest(campaign: Campaign, kind: FailureKind, count: int, rounds: int) -> list[NearWorld]:
-    """Search from the `count` nearest failing worlds, with at most `rounds` runs for each."""
+    """Search from the `count` failing worlds whose errors are smallest, with at most `rounds` runs for each world."""
     descents = [_begun(campaign, each, rounds) for each in _chosen(campaign, kind, count)]
     for number in range(rounds):
         active = [each for each in descents if each.candidate is not None]

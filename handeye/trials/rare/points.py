@@ -61,8 +61,8 @@ class WorldSpace:
         return np.clip(numbers, -self._widest, self._widest)
 
     def distance(self, numbers: Array) -> float:
-        """Return the distance of a world from the world in which every quantity is in the middle of its range, in
-        standard deviations.
+        """Return the distance (in standard deviations) between a world and the middle world, in which every quantity
+        is in the middle of its range.
         """
         return float(np.linalg.norm(self.deviations(numbers)))
 

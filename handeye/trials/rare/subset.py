@@ -125,7 +125,9 @@ class _Walk:
         self._runs = self._accepted = 0
 
     def chains(self, length: int) -> list[_Chain]:
-        """Return chains with `length` states in all. All chains advance together, by one state in each round."""
+        """Return chains that have `length` states together. In each round, every chain that is not yet complete
+        advances by one state.
+        """
         least, more = divmod(length, len(self._seeds))
         lengths = [least + (number < more) for number in range(len(self._seeds))]
         chains = [[seed] for seed in self._seeds]

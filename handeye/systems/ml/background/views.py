@@ -22,7 +22,7 @@ _PACKED: Final = 4  # parameters whose forms fit into a word
 
 
 def show_tables(mos: "Interpreter", level: Level) -> None:
-    """Connect tables of the real-time level to the data that the interpreter keeps."""
+    """Let some tables of the real-time level show the data that the interpreter keeps."""
     tables: dict[str, View] = {
         "TK": TaskTable(mos.program), "PT": RecentPoints(mos.program), "CC": CommandCodes(), "ER": ErrorTexts(),
         "TR": TraceBuffer(mos), "LG": SessionLog(mos), "HL": HostLink(mos),

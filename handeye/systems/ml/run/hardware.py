@@ -52,7 +52,7 @@ class Hardware(ABC):
 
     @property
     def memory(self) -> dict[Side, PerfectMemory]:
-        """The state that is kept outside the cell."""
+        """The part of the hardware's state that the cell does not store."""
         return {}
 
     def remember(self, memory: Mapping[Side, PerfectMemory]) -> None:

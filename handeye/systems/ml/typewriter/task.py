@@ -128,7 +128,7 @@ class Typewriter(ArmTask):
         return SupportHardware(*self.station(parts_of(plan), self.world(world)), tell, TROUBLES)
 
     def judge(self, truth: Truth) -> Findings:
-        """Judge the bars, and judge the support as the referee of `support` does."""
+        """Judge the bars. Also judge the support, in the same way as the referee of `support`."""
         pile = truth.states[POURED]
         assert isinstance(pile, Poured)
         fitted, left, boxed, lost = [], 0, 0, 0

@@ -177,7 +177,7 @@ def _arms(lines: Sequence[Line]) -> Iterator[Diagnostic]:
 
 
 def _arms_of(statement: Statement) -> set[int]:
-    """Return the arms that a statement moves or sets."""
+    """Return the arms whose axes or devices a statement names."""
     if statement.word == "ACTUATE":
         return {MAL_DEVICES[name.text][0] for name in statement.names}
     axes = [goal.axis.text for goal in statement.goals]

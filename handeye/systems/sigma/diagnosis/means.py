@@ -228,7 +228,7 @@ class Lost:
 
     @property
     def losers(self) -> list[str]:
-        """Axes that have lost steps, or whose switch was not found."""
+        """Axes that have lost steps, or that have not reached their switch."""
         return [axis for axis, lost in self.steps.items() if lost != 0]
 
     @property
