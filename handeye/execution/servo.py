@@ -1,8 +1,9 @@
 """The servo of an arm. In each servo period, the servo commands torques and estimates the force on the hand.
 
 The servo uses only the device interfaces: positions come from the potentiometers, refined by the tachometers, and
-forces from the residual of the joint torques. The code of a period does not let time pass. After it has commanded all
-devices, it yields to its caller, who lets time pass. When it is resumed, it reads the cell.
+forces from the residual of the joint torques. The code that is executed in a servo period does not itself let time
+pass. After it has commanded all devices, it yields to its caller, who lets time pass. When it is resumed, it reads the
+cell.
 """
 
 from collections.abc import Callable, Generator
@@ -241,10 +242,10 @@ class Servo:
         return sensed
 
     def _jumped(self, tau: Array | None, before: Sensed, after: Sensed) -> Disagreement | None:
-        """Find a potentiometer whose reading jumped in a servo period with torques `tau`, or under the brakes if `tau`
-        is None. A blow on the hand also changes readings suddenly. Such a blow is recognised by the readings of the
-        other joints, and is not taken for a jump. The blow of an object that shifts in the fingers is not taken for a
-        jump either, because the closing gap shows such a blow.
+        """Find a potentiometer whose reading jumped within a servo period. In this period, the drives gave the torques
+        `tau`, or the brakes were set if `tau` is None. A blow on the hand also changes readings suddenly. Such a blow
+        is recognised by the readings of the other joints, and is not taken for a jump. The blow of an object that
+        shifts in the fingers is not taken for a jump either, because the closing gap shows such a blow.
         """
         moved, work = after.q - before.q, self._work(before, after)
         self._unseen = moved - (before.qd + after.qd) * (self.period / 2) if work else None

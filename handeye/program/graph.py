@@ -48,7 +48,7 @@ class Graph:
         return sorted(number for kind in kinds for number in self.kinds.get(kind, ()))
 
     def each(self, kind: type[A]) -> Iterator[tuple[int, A]]:
-        """Yield the steps with operations of one kind, in order: number and operation."""
+        """Yield the steps with operations of one kind, in order, each as its number and its operation."""
         for number in self.kinds.get(kind, ()):
             operation = self.steps[number].operation
             if isinstance(operation, kind):

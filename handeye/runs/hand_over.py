@@ -84,7 +84,9 @@ class HandOver(Record, frozen=True, kw_only=True):
         raise Refused(f"{quoted(name)} is a {other} in the hand-over record, but the leg needs a {kind}")
 
     def height(self, name: str) -> float:
-        """Return a height (m), or the height of a place. Raises Refused as `value` does."""
+        """Return the height (m) with this name, or the height of the place with this name. Raises Refused as `value`
+        does.
+        """
         if name in self.named.get("place", {}) and name not in self.named.get("height", {}):
             return float(self.value(name, "place")[2])
         return float(self.value(name, "height")[0])

@@ -145,8 +145,8 @@ def _as_seen(old: Scan, view: View, part: Part, places: Array) -> Array:
     largest hole in the picture without the gasket.
 
     The aim of the mount may differ from the readings of its potentiometers by more than the width of a hole's border.
-    But the arm knows the position of the base more precisely than that. If the hole is not found, the positions are
-    not corrected.
+    But the arm knows the position of the base to within less than this width. If the hole is not found, the positions
+    are not corrected.
     """
     for _ in range(ROUNDS):
         steps = _base_steps(old, view, places[0], part.holes[0])
