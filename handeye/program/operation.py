@@ -120,7 +120,7 @@ class Operation(
         return None
 
     def leading_to(self, target: int | None) -> Self:
-        """Return a copy of the operation with another branch target."""
+        """Return a copy of the operation with a different branch target."""
         raise NotImplementedError(f"{type(self).__name__} has no branch")
 
     @property

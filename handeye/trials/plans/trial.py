@@ -1,4 +1,6 @@
-"""Executes one trial of a planned program, or of dismantling its product, and returns the row for the batch."""
+"""Executes one trial, and returns the row for the batch. A trial executes a planned program, or dismantles the product
+of the program.
+"""
 
 import hashlib
 from collections.abc import Callable, Sequence
@@ -60,7 +62,7 @@ class Trial:
 
     @property
     def settings(self) -> dict[str, str]:
-        """Further settings that determine the trials, by name."""
+        """Settings of this kind of trial, by name. They determine the trials in addition to what `head` records."""
         return {}
 
     def __call__(self, case: Case) -> list[Row]:

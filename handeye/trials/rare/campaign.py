@@ -113,7 +113,7 @@ class Campaign:
     ) -> tuple[RareRow, ...]:
         """Run the worlds of the given points. `places` gives the condition of each point, and its number within this
         condition. If `kept` is True, worlds in which the program fails are kept. Raises InvalidInput if a run ended
-        because this computer failed, so that its margin is unknown.
+        because this computer failed; the margin of such a run is unknown.
         """
         cases = [
             RareCase(

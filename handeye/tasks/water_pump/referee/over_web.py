@@ -1,5 +1,5 @@
 """Judges whether the hand stands over the web of the base, between its two large holes. An exercise of the course uses
-this as its referee (docs/course.md).
+this referee (docs/course.md).
 """
 
 from math import acos, hypot
