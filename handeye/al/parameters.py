@@ -23,7 +23,7 @@ _BRACED: Final = re.compile(r"\{([A-Za-z_]\w*)\}", re.ASCII)  # a parameter in a
 
 class Argument(Located, frozen=True, gc=False):
     """An operand of a macro call, at the place where it is written. `call` is the scope of the names in the operand,
-    and `by` is the statement of the call.
+    and `by` is the statement that calls the macro.
     """
 
     tokens: tuple[Token, ...]

@@ -65,7 +65,7 @@ class Region(Record, frozen=True, kw_only=True):
 
 
 class Passed(NamedTuple):
-    """A step that was executed with one outcome."""
+    """A step on a path, and the outcome with which the path passes the step."""
 
     places: HandPlaces
     node: int
@@ -220,7 +220,7 @@ class Contacted(Evidence, frozen=True, kw_only=True):
 
 
 class FreeTurn(Evidence, frozen=True, kw_only=True):
-    """A turn about an axis. The turn went through at least a given arc, and met less than a given force (N).
+    """A turn about an axis, through at least a given arc, that met less than a given force (N).
 
     The arc is given by its ends (rad from table x, counter-clockwise) and by the direction of the turn: 1 for
     counter-clockwise, -1 for clockwise.

@@ -127,7 +127,7 @@ def _guarded(graph: Graph, kind: GuardKind) -> Iterator[int]:
 
 
 def _pauses(graph: Graph) -> Iterator[AlwaysFails]:
-    """Yield the WAITs that were intended as a delay."""
+    """Yield the WAITs that seem to be intended as a delay."""
     for number, wait in graph.each(Wait):
         if _TIME.fullmatch(wait.message):
             message = "`WAIT` stops the run and calls the operator; it is not a delay"

@@ -91,7 +91,7 @@ def stage_times(rows: Sequence[Row]) -> Iterator[StageTime]:
 
 
 def search_places(rows: Sequence[Row]) -> Iterator[SearchPlaces]:
-    """Yield the numbers of places tried, for each position around which the program searched."""
+    """For each position around which the program searched, yield how many places the searches tried."""
     ends = [end for row in rows for end in row.searches]
     for at in dict.fromkeys(end.at for end in ends):
         here = [end for end in ends if end.at == at]

@@ -109,7 +109,7 @@ def events_digest(events: list[AnyEvent]) -> str:
 
 
 def facts(done: FinishedRun, ended: Ended) -> dict[str, object]:
-    """Return the fields that the row of every kind of run has."""
+    """Return the fields that every row has, whatever the kind of its run."""
     steps = [event for event in done.runner.events if isinstance(event, StepStarted)]
     return {
         "ended": ended,

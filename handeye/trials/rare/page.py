@@ -1,4 +1,4 @@
-"""Makes the HTML page that shows what a search for rare failures found. The page has the style of the report of a run."""
+"""Makes the HTML page of a search for rare failures, in the style of the report of a run."""
 
 from collections.abc import Iterator, Sequence
 from math import isfinite
@@ -49,7 +49,9 @@ def estimates(found: Sequence[Estimated]) -> Iterator[Markup]:
 
 
 def worlds(failure: str, found: Sequence[NearWorld], pushing: Sequence[Push]) -> Iterator[Markup]:
-    """Yield the sections for the nearest failing worlds, and for the quantities that make the program fail."""
+    """Yield the sections for the failing worlds whose errors are smallest, and for the quantities that make the
+    program fail.
+    """
     title = f"{_TITLES[failure]}: nearest worlds"
     if not found:
         yield section(f"{failure}-worlds", title, element("p", no_worlds(failure)))

@@ -62,8 +62,8 @@ class Margin:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Usual:
-    """The reserves that runs usually have left: the medians over the first level. These medians make the parts of a
-    margin comparable.
+    """The usual reserves: for each part of a margin, the median over the runs of the first level. The medians make the
+    parts comparable.
     """
 
     program: Mapping[str, float]

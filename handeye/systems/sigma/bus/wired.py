@@ -318,9 +318,7 @@ class WiredBus(MicrobusPort):
         return device.crystal.after(0, self.timing.scan, at + 1)
 
     def _reflexes(self, number: int) -> list[tuple[int, bool]]:
-        """Return the motors that a force microcomputer can interrupt. The value for each motor is True while the motor
-        is interrupted.
-        """
+        """Return the motors that a force microcomputer can interrupt, each with True while it is interrupted."""
         device = self._nodes[number].device
         assert isinstance(device, Force)
         pairs = ((self._wired.get((number, c)), level) for c, level in enumerate(device.pins))
