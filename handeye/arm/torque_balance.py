@@ -107,8 +107,8 @@ def _model(arm: ArmModel, postures: Array) -> tuple[Array, Array]:
 
 
 def _learnt(belief: Array, H: Array, weight: Array, noise: Array, spare: Array | None = None) -> Array:
-    """Update an estimate with the joint torques beyond the model (zero by default). Each torque has a noise
-    variance.
+    """Update an estimate with the joint torques that the model does not explain (zero by default). Each torque has a
+    noise variance.
     """
     mean, spread = belief[:, 0], belief[:, 1:]
     for j, h in enumerate(H):

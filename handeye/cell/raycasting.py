@@ -67,7 +67,7 @@ class RayRenderer(SceneRenderer):
         return luminance, geom
 
     def _light(self, data: mujoco.MjData, index: int, points: Array, normals: Array) -> Array:
-        """Return the light of one lamp on surface points, shape (n,)."""
+        """Return the amount of light that surface points receive from one lamp, shape (n,)."""
         model = self._model
         source, axis = data.light_xpos[index], data.light_xdir[index]
         directional = model.light_type[index] == mujoco.mjtLightType.mjLIGHT_DIRECTIONAL

@@ -129,7 +129,8 @@ class ServoLoop(Servo):
         beside: Callable[[int], None] = lambda _: None,
         taken: list[Exertion] | None = None,
     ) -> Motion[Outcome]:
-        """Follow set-points. The motion ends early if `guard` trips. The torques are appended to `taken`.
+        """Follow set-points. The motion ends early if `guard` trips. The torques of each servo period are appended to
+        `taken`.
 
         The guard watches along `direction`, unit vectors in W, shape (3,) or (N, 3). `beside` is called with the
         number of each set-point, to give further commands for the servo period of that set-point.
@@ -436,8 +437,8 @@ class ServoLoop(Servo):
         return joint, abs(float(off[joint]))
 
     def _dragging(self, taken: Sequence[Exertion], lagging: str = "") -> Outcome | None:
-        """Check that in a motion through free air no joint took far more torque than its friction. Without known
-        friction, nothing is checked.
+        """Check that in a motion through free air no joint took far more torque than its friction explains. Without
+        known friction, nothing is checked.
 
         If a joint lagged behind, no other joint is blamed.
         """

@@ -116,7 +116,7 @@ class Evidence(Record, frozen=True, kw_only=True, tag=True):
 
 def touches(guards: Guards, along: Vector3, force: Limits) -> bool:
     """Return True if there is at least one guard, and if each guard trips when a force opposes a motion in the
-    direction `along`. This force must be within the limits `force`.
+    direction `along`. The force at which a guard trips must be within the limits `force`.
     """
     felt = [guard.exerted(along) for guard in guards if isinstance(guard, Force | Against)]
     return bool(felt) and len(felt) == len(guards) and all(

@@ -49,8 +49,9 @@ class Claim(Record, frozen=True, kw_only=True):
 
 
 class Obligation(Record, frozen=True, kw_only=True):
-    """A finding of the referee, and claims. A program that shows these claims would notice if the finding did not
-    hold. If there are no claims, a program need not show the finding, and `rests` gives the reason.
+    """A finding of the referee, with the claims that a program must show for it. A program that shows these claims
+    would notice if the finding did not hold. If there are no claims, a program need not show the finding, and `rests`
+    gives the reason.
     """
 
     finding: str

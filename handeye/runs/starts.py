@@ -165,7 +165,7 @@ def own_plan(task: str) -> Plan:
 
 
 def _trim(folder: Path) -> None:
-    """Remove the oldest starts beyond the limit."""
+    """Remove the oldest starts until a folder is within its limit."""
     together = 0
     for path in kept_starts(folder):
         together += path.stat().st_size

@@ -187,7 +187,9 @@ def _check_scene(task: AnyTask, scene: mujoco.MjModel) -> None:
 
 
 class Task(AnyTask):
-    """The work of an arm that runs planned programs. The task provides cell, worlds, programs and referee."""
+    """The work of an arm that runs planned programs. The task provides the cell, the worlds, the programs and the
+    referee.
+    """
 
     arm: ArmModel
     park: Array

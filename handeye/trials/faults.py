@@ -62,7 +62,7 @@ class PanicInStage(Observer):
     """Presses the panic button once, a number of servo periods after a stage has begun."""
 
     def __init__(self, stage: int, periods: int = SOON) -> None:
-        """Wait for the stage with this index."""
+        """Press the button `periods` servo periods after the stage with the index `stage` has begun."""
         self._stage, self._left = stage, periods
         self._runner: Runner | None = None
         self._under_way = self._hit = False

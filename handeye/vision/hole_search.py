@@ -168,7 +168,7 @@ class Levels(NamedTuple):
 
     def step(self, search: HoleSearch) -> float:
         """Return the least step of intensity at an edge: the fraction `contrast` of the difference between the face
-        and a hole, but at least two levels, which are a few times the noise.
+        and a hole, or two levels (a few times the noise) if two levels are more.
         """
         return max(2.0, search.contrast * (self.face - self.dark))
 

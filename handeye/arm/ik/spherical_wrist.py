@@ -146,7 +146,7 @@ def _from_boom(m: ModuleType, q123: Any, rows: Any) -> Any:
 
 
 def _bend_and_roll(m: ModuleType, q4: Any, finger: Any, approach: Any) -> Any:
-    """Return q5 and q6 for a given q4, from the directions of `_from_boom`."""
+    """Return q5 and q6 for a given q4, from the two directions that `_from_boom` returns."""
     (o1, o2, o3), (a1, a2, a3) = finger, approach
     c4, s4 = m.cos(q4), m.sin(q4)
     q5 = m.atan2(c4 * a1 + s4 * a2, a3)

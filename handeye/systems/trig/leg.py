@@ -6,8 +6,8 @@ the table, and a hand with ROLL, PITCH and YAW 0 points straight down, with its 
 leg teaches the program with an ideal arm. So the taught places are exact, like the positions in the arm language's
 taught file, which are computed from the drawing.
 
-TRIG has no command with which a program can report that it has failed. A leg therefore ends well only at the step
-FINISH.
+TRIG has no command with which a program can report that it has failed. Therefore a leg counts as successful only if
+its program ends at the step FINISH.
 """
 
 from collections.abc import Mapping, Sequence

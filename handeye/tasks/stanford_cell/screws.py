@@ -197,7 +197,7 @@ def add_thread(shaper: Shaper, base: mujoco.MjsBody, number: int, at: Place, hei
 def _screw_shapes(
     shaper: Shaper, body: mujoco.MjsBody, head: str, shank: str, head_name: str, shank_name: str
 ) -> tuple[mujoco.MjsGeom, mujoco.MjsGeom]:
-    """Add head and shank of a screw to a body. The body's origin is the point of the screw."""
+    """Add the head and the shank of a screw to a body. The body's origin is the point of the screw."""
     top = LENGTH + HEAD_HEIGHT
     first = shaper.cylinder(
         body, head, HEAD * MM, (0, 0, LENGTH * MM), (0, 0, top * MM), "screw", name=head_name

@@ -50,7 +50,7 @@ class Push(Record, frozen=True, kw_only=True):
 
 @dataclass(slots=True)
 class _Descent:
-    """The search from one failing world."""
+    """The search for the nearest failing world, begun at one failing world."""
 
     begun: Failing
     tries: Generator[Array, bool, None]

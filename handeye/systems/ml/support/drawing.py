@@ -133,7 +133,7 @@ class Lie(NamedTuple):
 
 
 def mm(x: float, y: float) -> Place:
-    """Convert a place of the slides, whose y points away from the base, to scene coordinates."""
+    """Convert a place of the slides to scene coordinates. The y axis of the slides points away from the base."""
     return Place(x * UNIT, -y * UNIT)
 
 

@@ -52,7 +52,7 @@ class StageLeg(Record, frozen=True, kw_only=True):
 
 
 class StageLimits(Record, frozen=True, kw_only=True):
-    """Which languages can do a stage, and which of its instructions the other languages have no words for."""
+    """Which languages can do a stage, and which of the stage's instructions cannot be written in the other languages."""
 
     stage: str
     languages: str  # that have a leg

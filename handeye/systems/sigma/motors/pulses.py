@@ -1,8 +1,8 @@
 """Computes the pulse trains of the motor microcomputers. A counter that divides a 2 MHz clock determines the
 times of the steps.
 
-A few numbers define a train. The times of the pulses are computed directly from these numbers, so the firmware is not
-simulated in small intervals of time.
+A few numbers define a train. The times of the pulses are computed directly from these numbers, so the firmware need
+not be simulated in small intervals of time.
 """
 
 import math

@@ -1,4 +1,6 @@
-"""Adds base, plate, pins, screws, their fixtures and the screwdriver of arm 2 to the scene of the gantries."""
+"""Adds the base, the plate, the pins, the screws, their fixtures and the screwdriver of arm 2 to the scene of the
+gantries.
+"""
 
 from typing import Final
 

@@ -72,7 +72,9 @@ def begin_way(session: Session, given: Arguments) -> None:
 
 
 def end_way(session: Session, given: Arguments) -> None:
-    """ENDCAL: store, under a name, the offset from the place that CALPOS remembered to the arm's present place."""
+    """ENDCAL: measure the offset of the arm's present place from the place that CALPOS remembered, and store this
+    offset under a name.
+    """
     if session.origin is None:
         raise Refused("type CALPOS first, to record the start")
     _define(session, given.position or "", session.arm.here().seen_from(session.origin), relative=True)

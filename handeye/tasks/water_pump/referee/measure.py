@@ -213,7 +213,7 @@ def _alone(measured: SettledState) -> tuple[mujoco.MjModel, mujoco.MjData]:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Overlap:
-    """The depth of an overlap (m), and the names of the two shapes."""
+    """The depth of an overlap (m), and the names of the two shapes that overlap."""
 
     depth: float  # m
     between: str
