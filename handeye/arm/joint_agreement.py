@@ -171,11 +171,10 @@ class JointAgreement:
     _pairs: list[_SensorPair] = field(default_factory=list, init=False)  # empty at the start
 
     def begin_anew(self, q: Array, qd: Array) -> None:
-        """Start the comparison again from these readings. The servo starts the comparison again while a tool chatters
-        in step with the servo and shakes the arm.
+        """Start the comparison again from these readings. The servo does this while a running tool shakes the arm.
 
-        Tachometers that are read once per period then show a steady rate although the joint does not move on
-        average.
+        A tool may shake the arm with the period of the servo. Tachometers that are read once per period then show a
+        steady rate although the joint does not move on average.
         """
         self.start, self.rate, self._pairs = q, qd, []
 

@@ -68,7 +68,9 @@ def renamable(document: Document, offset: int) -> Occurrence:
 
 
 def rename(document: Document, offset: int, new: str) -> list[Edit]:
-    """Return edits in all files that rename the name at an offset. Raises BadArgument if the new name is invalid."""
+    """Return the edits that give a new name to the name at an offset, in all files. Raises BadArgument if the new name
+    is invalid.
+    """
     name = renamable(document, offset)
     if _NAME.fullmatch(new) is None:
         raise BadArgument(

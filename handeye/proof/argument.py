@@ -73,7 +73,9 @@ def said_of(says: str, claims: Sequence[ClaimProof]) -> str:
 
 
 def _passed(claim: ClaimProof, program: Program) -> str:
-    """Write the lines of a claim, phase by phase. Every path passes one of the lines of each phase."""
+    """Write the lines of the program that show a claim, phase by phase. Every path passes one of the lines of each
+    phase.
+    """
     said = []
     for step, steps in zip(claim.passed, claim.phases, strict=True):
         lines = list(dict.fromkeys(_line(program, number) for number in (steps if step is None else [step])))
@@ -82,7 +84,9 @@ def _passed(claim: ClaimProof, program: Program) -> str:
 
 
 def _line(program: Program, number: int) -> str:
-    """Write a line with its word, the macro that its stage calls, and what happens if its action raises an error."""
+    """Describe a step: its line, its word, the macro that its stage calls, and what happens if its action raises an
+    error.
+    """
     step = program.steps[number]
     behind = None if step.next is None else program.steps[step.next].operation
     tested = behind is not None and behind.branch is not None and behind.branch.error is not None

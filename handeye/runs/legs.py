@@ -51,13 +51,13 @@ class RunningLeg(RunningSystem):
 
     @abstractmethod
     def leave(self, record: HandOver | None) -> HandOver:
-        """Set the brakes, and return the record for the next leg. The new record also keeps those values of the
-        previous record that this program does not know.
+        """Set the brakes, and return the record for the next leg. The new record also contains those values of
+        `record` that the program of this leg does not know.
         """
 
     def take_back(self, station: StationMemory) -> None:
         """Take the arm back from the program of the next leg, after that program has undone its steps. The arm is
-        roughly where this program left it. Only a program that can undo its own steps needs this method.
+        roughly where it was when this leg ended. Only a program that can undo its own steps needs this method.
         """
         raise NotImplementedError
 

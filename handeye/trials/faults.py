@@ -218,7 +218,7 @@ def _named(expected: ExpectedDetection, result: Result) -> bool:
 
 def _placed(expected: ExpectedDetection, result: Result) -> bool:
     """Return True if the run stopped in one of the stages in which the fault is expected to be detected. Also return
-    True if the run was not stopped, or if no stages are expected.
+    True if the run was not stopped, or if `expected` names no stages.
     """
     return not expected.stages or result.stopped_at is None or result.stopped_at in expected.stages
 

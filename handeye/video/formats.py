@@ -46,9 +46,10 @@ def webp(frames: Frames, held: int) -> bytes:
 
 
 def settled(frames: Frames) -> Frames:
-    """Yield frames in which a block of pixels changes only if it differs enough from the block that is shown.
+    """Yield the frames with small changes held back: each block of pixels stays as it was last shown until it
+    differs enough from that.
 
-        libwebp leaves out blocks that resemble the blocks of the previous frame. Without this function, slow changes
+    libwebp leaves out blocks that resemble the blocks of the previous frame. Without this function, slow changes
     would never be shown.
     """
     shown = next(frames)

@@ -75,7 +75,7 @@ class HandPushed(HandAstray, frozen=True, kw_only=True):
 
 
 class HandStuck(CauseRecord, frozen=True, kw_only=True):
-    """The hand moved by only `moved` (m) while it pressed."""
+    """The hand was pressing, and stopped after it had moved by only `moved` (m)."""
 
     moved: float
 
@@ -132,7 +132,7 @@ class GapTooLarge(CauseRecord, frozen=True, kw_only=True):
 
 
 class NothingBetween(CauseRecord, frozen=True, kw_only=True):
-    """Centring ended before both fingers touched."""
+    """Centring ended before both fingers touched an object."""
 
     gap: float
 
@@ -147,7 +147,7 @@ class NoPicture(CauseRecord, frozen=True, kw_only=True):
 
 
 class NoGeneral(CauseRecord, frozen=True, kw_only=True):
-    """A part was to be located by its holes, but had not been located roughly before."""
+    """A part was to be located by its holes, but no `GENERAL` had found its rough place before."""
 
 
 class NoOutline(CauseRecord, frozen=True, kw_only=True):

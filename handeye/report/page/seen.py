@@ -82,8 +82,8 @@ def _told(finding: Finding) -> str:
 
 
 def _mark(mark: Mark) -> Markup:
-    """Return a mark as SVG. Coordinates in pictures count from the centre of the first pixel; coordinates in
-    drawings count from the corner of that pixel.
+    """Return a mark as SVG. The origin of the coordinates is the centre of the first pixel in pictures, and the corner
+    of that pixel in drawings.
     """
     match mark:
         case Loop():

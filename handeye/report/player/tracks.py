@@ -58,7 +58,7 @@ class Track:
 
 
 def _needed(poses: Array) -> Rows:
-    """Return the rows between which all other poses can be interpolated within tolerance."""
+    """Return the rows of `poses` from which all other rows can be interpolated within tolerance."""
     if np.ptp(poses, axis=0).max() < _STILL:
         return np.zeros(1, dtype=np.int64)
     numbers = np.arange(len(poses), dtype=np.float64)

@@ -46,7 +46,7 @@ class Ml:
             senses: such values as texts, in the form of `handeye ml run --sense`: with `5=500@3:2750`, sensor 5 reads
                 500 while motor 3 is at 2750 or farther from 0.
             procedures: a dictionary from the names of commands, `UPROCA` to `UPROCD`, to the functions that these
-                commands call. Each function is called with this terminal's interpreter and the values of the
+                commands call. Each function is called with the interpreter of this `Ml` and the values of the
                 statement's parameters.
         """
         self.events: list[SystemEvent] = []

@@ -132,8 +132,8 @@ class Campaign:
         return rows
 
     def world(self, condition: str, point: Point) -> WorldSpec:
-        """Return the world of a point. At level 0, the world of a point is the world of a seed, the same world that
-        every other command makes from this seed.
+        """Return the world of a point. At level 0, this is the world of a seed, as every other command makes it from
+        this seed.
         """
         if condition == FIRST:
             return replace(self.trial.world, seed=point.noise)

@@ -122,7 +122,7 @@ class Sorter(ReportingHardware):
 
 
 class Bin(ArmTask):
-    """Take parts out of a bin, and judge them."""
+    """Take parts out of a bin, and sort them into boxes."""
 
     name = "bin"
     words = Words(product="the sorted parts", done="The bin is empty, and each part is in its box.")

@@ -88,7 +88,7 @@ class Support(ArmTask):
         return SupportHardware(*self.station(self.world(world)), tell)
 
     def judge(self, truth: Truth) -> Findings:
-        """Judge what the program has assembled, and the number of parts that it printed last."""
+        """Judge the assembled support, and the last count of parts that the program printed."""
         return judge(truth, counted(truth.states[Listener.name]))
 
 

@@ -1,6 +1,6 @@
-"""The lines of some tables: those in which each word of a line has a name. The fields of a line are its words, in the
-order of the table. Lines that change in every cycle are mutable. All other lines are immutable: a new line replaces
-the old line. Saved states can therefore share these lines.
+"""The lines of those tables whose words have names. The fields of a line are its words, in the order of the table.
+Lines that change in every cycle are mutable. All other lines are immutable: a new line replaces the old line. Saved
+states can therefore share these lines.
 """
 
 from typing import Annotated, Final

@@ -110,8 +110,8 @@ class StageWork:
 
 
 def stage_figures(start: Checkpoint, stage: str, done: int) -> dict[str, object]:
-    """Run the last leg of a relay from a checkpoint, and return the fields of its row. After the leg, `done` stages are
-    done.
+    """Run the last leg of a relay from a checkpoint, and return the fields of its row. `done` is the number of
+    completed stages after this leg.
     """
     peaks: list[LegPeaks] = []
 
@@ -146,7 +146,7 @@ class CellLine(Record, frozen=True, kw_only=True):
 
 
 class CostLine(Record, frozen=True, kw_only=True):
-    """What a stage costs in one language, in the accepted trials."""
+    """What a stage costs in one language, computed from the accepted trials."""
 
     stage: str
     language: str

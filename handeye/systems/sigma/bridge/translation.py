@@ -163,7 +163,7 @@ def _device(statement: Statement) -> str:
 
 
 def _arms(lines: Sequence[Line]) -> Iterator[Diagnostic]:
-    """Yield the first line that does not use the arm of the lines before it, but another arm."""
+    """If the lines use both arms, yield a diagnostic for the first line that uses the second of these arms."""
     first: tuple[int, Line] | None = None
     for line in lines:
         for arm in sorted(_arms_of(line.statement)):

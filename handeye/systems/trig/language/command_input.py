@@ -1,9 +1,9 @@
 """Executes typed lines as commands, from a terminal or a script. An invalid line is refused with a one-sentence
 message.
 
-A script has the lines that a user would type at a terminal. Each command is a line. The next lines are the actions on
-the teach box (`X 0 Y 0 Z 250 RECORD`) and the answers to the questions of this command. A line may also begin with the
-prompt or the question that the terminal shows. Remarks begin with `;`.
+A script has the lines that a user would type at a terminal. Each command is a line. The lines after a command are the
+actions on the teach box (`X 0 Y 0 Z 250 RECORD`) and the answers to the command's questions. A line may also begin
+with the prompt or the question that the terminal shows. Remarks begin with `;`.
 """
 
 from collections import deque

@@ -247,7 +247,7 @@ def _holes(count: int) -> Iterator[PartFault]:
 
 
 def _stations(screws: int) -> Iterator[PartFault]:
-    """Yield faults of stations that have moved on the table, with the parts that wait in them."""
+    """Yield the faults in which a station has moved on the table, together with the parts in it."""
     waiting, expected = [f"screw{k}" for k in range(screws)], detect.MOVED_DISPENSER
     yield from _station(Station.DISPENSER, "dispenser with its screws", waiting, expected, usual=9.0)
     yield from _station(
