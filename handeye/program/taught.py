@@ -217,7 +217,9 @@ def load_taught(path: str | Path) -> Taught:
 
 
 def read_taught(source: Source) -> Taught:
-    """Parse the text of a taught TOML file (inches and degrees). Raises BadFile with a message that names the wrong key."""
+    """Parse the text of a taught TOML file (inches and degrees). Raises BadFile with a message that names the wrong
+    key.
+    """
     path = source.name
     try:
         tables = msgspec.convert(tomllib.loads(source.text), _File)
