@@ -56,7 +56,7 @@ class Case(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     right: Right = Right()
     replace: dict[
         str, str
-    ] = {}  # lines of the solution, by the lines that the organiser puts in their places
+    ] = {}  # for lines of the solution, the lines that the organiser puts in their places
     job: str = ""  # variant of the job, such as a number of pieces
 
 
@@ -213,7 +213,10 @@ class BenchTask(msgspec.Struct, frozen=True, kw_only=True, dict=True):
 
 
 def _replaced(text: str, lines: Mapping[str, str]) -> str:
-    """Return a program in which some lines are replaced. Each replaced line is one that a solution must keep."""
+    """Return a program in which each line that is a key of `lines` is replaced by the value of this key.
+
+    A solution must keep the lines that are keys.
+    """
     return "\n".join(lines.get(line, line) for line in text.splitlines()) + "\n"
 
 

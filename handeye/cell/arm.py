@@ -187,7 +187,7 @@ class SimulatedArm(Mechanism[ArmState], ArmPort):
         self._read(q, qd, braked=self._braked)
 
     def _read(self, q: Array, qd: Array, *, braked: bool) -> None:
-        """Keep the readings, read-only, until time passes again."""
+        """Store the readings until time passes again, as arrays that cannot be changed."""
         q.setflags(write=False)
         qd.setflags(write=False)
         self._reading = ArmReading(q=q, qd=qd, braked=braked)

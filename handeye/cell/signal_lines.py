@@ -27,7 +27,7 @@ def converted(value: float, step: float) -> float:
 
 
 class Converters:
-    """A row of converters, one for each number."""
+    """Converters for a row of numbers, one converter for each number of the row."""
 
     def __init__(self, steps: Array) -> None:
         """Make converters with the steps `steps`, shape (n,). A converter with a step of 0 passes numbers on

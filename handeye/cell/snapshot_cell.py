@@ -28,8 +28,8 @@ class SnapshotCell:
         mechanisms: Sequence[Mechanism[Any]],
         noise: np.random.Generator,
     ) -> None:
-        """Take a scene that will not change, and mechanisms with distinct names. The mechanisms act in the given
-        order.
+        """Build a cell from a scene and mechanisms. The caller must not change the scene later. The names of the
+        mechanisms must differ. The mechanisms act in the given order.
         """
         self._model, self._data, self._noise = model, data, noise
         self._drawn = copy.deepcopy(model)

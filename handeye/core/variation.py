@@ -169,7 +169,9 @@ class Variation:
         return frozenset(".".join(part[:n]) for part in parts for n in range(1, len(part)))
 
     def present(self, values: Mapping[str, float]) -> dict[str, Quantity]:
-        """Return the quantities, by name, of a world in which choices have the given values (SI)."""
+        """Return the quantities, by name, that exist in a world with these `values` (SI). Some quantities exist only
+        if another quantity, a choice, has a certain value.
+        """
         return {name: q for name, q in self.quantities.items() if self._is_there(q, values)}
 
     def _is_there(self, quantity: Quantity, values: Mapping[str, float]) -> bool:

@@ -150,7 +150,7 @@ def is_ahead(stop: AnyStop, start: Checkpoint) -> bool:
 
 
 def _steps(stop: AnyStop, listing: Listing) -> frozenset[int] | None:
-    """Return the steps before which a condition stops the run, or None if the condition is not a place."""
+    """Return the steps before which a condition stops the run, or None if the condition names no step and no stage."""
     match stop:
         case AtSteps():
             return frozenset(stop.steps)

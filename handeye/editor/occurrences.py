@@ -101,7 +101,7 @@ class _Context:
         )
 
     def names(self, token: Token, use: Use) -> Iterator[Occurrence]:
-        """Yield the name in a word that is an operand, if the operand accepts a name."""
+        """Yield the name in an operand, or nothing if this operand does not accept a name."""
         operand = use.operand
         if Name not in operand.takes or token.text.upper() == operand.word:
             return

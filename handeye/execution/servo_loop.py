@@ -279,7 +279,8 @@ class ServoLoop(Servo):
         rest anywhere within their friction, and the tare would contain that friction.
 
         The force on the hand is computed from the rates, so a tachometer that scatters would be felt as a force. If
-        the joints slide unevenly, the arm therefore also holds still without dither, and the rates are checked.
+        the joints slide unevenly, the arm therefore holds still a second time, without dither, and the rates are
+        checked.
 
         If the reading of a potentiometer jumps meanwhile, the motion ends at once, because the servo would follow the
         wrong reading and move the joint.

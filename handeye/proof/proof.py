@@ -49,7 +49,7 @@ class ClaimProof(Record, frozen=True, kw_only=True):
 
 
 class FindingProof(Record, frozen=True, kw_only=True):
-    """The verdict on one finding of the referee. If the finding has no claims, a program need not show it."""
+    """The verdict on one finding of the referee. A finding without claims is one that no program needs to show."""
 
     finding: str
     rests: str

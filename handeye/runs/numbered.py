@@ -1,4 +1,4 @@
-"""A run of a program of numbered lines: the events and checks that the systems of such languages share."""
+"""A run of a program with numbered lines: the events and checks that all systems with such programs share."""
 
 from abc import abstractmethod
 from typing import ClassVar, Literal

@@ -473,5 +473,5 @@ class System(ABC):
         return None
 
     def parts(self, folder: Path) -> Sequence[PagePart]:
-        """Return the sections that only this system adds to the report of the run in a folder."""
+        """Return the sections, specific to this system, that are added to the report of the run in a folder."""
         return ()

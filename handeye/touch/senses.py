@@ -115,8 +115,8 @@ def kept_apart(gap: float, goal: float) -> bool:
 
 
 def stood_still(change: float, driven: float) -> bool:
-    """Return True if the gap has not changed although the motor drove the fingers together by more than the error of
-    the gap (all in m).
+    """Return True if the gap has not changed although the motor has been driven far enough to close the gap by more
+    than GAP_ERROR. `change` and `driven` are in m.
     """
     return driven > GAP_ERROR and abs(change) < GAP_NOISE
 

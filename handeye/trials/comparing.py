@@ -50,8 +50,9 @@ class PairedTrial(NamedTuple):
 
 
 def paired(names: Sequence[str], batches: Sequence[Batch]) -> tuple[PairedBatch, ...]:
-    """Compare each further batch with the first one. Raises InvalidInput if a batch is of another kind, or was
-    run in other worlds."""
+    """Compare each later batch with the first batch. Raises InvalidInput if a later batch is of another kind than the
+    first, or if the same seeds give other worlds in it.
+    """
     first_head = batches[0][0]
     for name, (head, _) in zip(names, batches, strict=True):
         if head.kind != first_head.kind:

@@ -140,7 +140,7 @@ def _account(
     across: NDArray[np.intp] | None,
     ends: NDArray[np.intp],
 ) -> None:
-    """Record the points that beams have read."""
+    """Record in `scan` which points the beams have read."""
     looked = usable & (np.arange(where.shape[1]) < ends[:, None])
     read = where[looked]
     scan.account(read)

@@ -65,7 +65,7 @@ def localise(
     *,
     whole: bool = True,
 ) -> BoundingBox | None:
-    """Find a blob as `door.localise` does. After the call, `scan` still has the window.
+    """Find a blob as `door.localise` does. The window remains set in `scan` after the call.
 
     If `whole` is False, a blob is also accepted if the window cuts it off or a shadow divides it in two.
     """
@@ -187,7 +187,9 @@ class _Side:
         return turned[::-1] if self.backwards else turned
 
     def _line(self, place: int) -> int:
-        """Convert the number of a picture row or column to a line number of this side, or back."""
+        """Convert the number of a picture row or column to a line number of this side, or a line number to a row or
+        column.
+        """
         return len(self._image) - 1 - place if self.backwards else place
 
     def _turned_window(

@@ -168,8 +168,8 @@ class Scan:
         return back.min(axis=1), nearest
 
     def run(self, u: int, v: int, du: int, dv: int) -> tuple[int, int]:
-        """Return the lengths (points) of one ray within the window, backwards and forwards, or (0, -1) if the start of
-        the ray is outside the window.
+        """Return two lengths (points): how far a ray can extend backwards and forwards from its start within the
+        window. Returns (0, -1) if the start of the ray is outside the window.
         """
         back = ahead = math.inf
         for a, b, c in self._lines:

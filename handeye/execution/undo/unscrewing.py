@@ -126,8 +126,8 @@ def _course(run: ExecutionContext) -> Course:
 
 def taken_by(run: ExecutionContext, backwards: Iterable[int]) -> int | None:
     """Return the index of the step in which the screwdriver took up the screw that a later step drives in: the last
-    step that ended on a force (on the head of the screw) before the hand moved to the hole. Returns None if there is
-    no such step.
+    step before the motion to the hole in which a force, from the head of the screw, ended the motion of the hand.
+    Returns None if there is no such step.
 
     `backwards` gives the indices of steps, from the driving step backwards.
     """

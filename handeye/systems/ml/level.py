@@ -52,7 +52,7 @@ class Level(ABC):
     @property
     @abstractmethod
     def posted(self) -> Post:
-        """What ended the last motion. The text is empty while a motion is under way."""
+        """A word that says what ended the last motion. While a motion is under way, the word is empty."""
 
     @property
     @abstractmethod
@@ -107,7 +107,7 @@ class Level(ABC):
 
     @abstractmethod
     def calibrate(self, sensors: Sequence[int]) -> None:
-        """Take the mean of the last 8 readings of each sensor as its zero. If no numbers are given, do this for all
+        """Take the mean of the last 8 readings of each sensor as its zero. If `sensors` is empty, do this for all
         analog sensors. Raises MlError (M11).
         """
 

@@ -128,7 +128,7 @@ def on_platter(axes: "Sequence[float] | Array") -> Place:
 
 
 class _Job:
-    """What a TRIG job needs while it runs, on the Stanford arm."""
+    """The job of a TRIG program that runs on the Stanford arm."""
 
     def __init__(self, session: Session) -> None:
         self.session = session

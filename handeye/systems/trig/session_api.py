@@ -1,5 +1,5 @@
-"""A TRIG session for use from Python. Python code types lines into the session, and both of TRIG's displays show the
-TRIG program that results.
+"""A TRIG session for use from Python. Python code types lines into the session. Both of TRIG's displays show the TRIG
+program that these lines make.
 """
 
 from typing import Final, get_args

@@ -140,7 +140,9 @@ def arm() -> Iterator[Quantity]:
 
 
 def _friction() -> Iterator[Quantity]:
-    """Yield the Coulomb friction of the joints. The paper gives no check for joint 1, which carries no weight."""
+    """Yield the Coulomb friction of the joints. According to the paper, a released arm stays in place; this says
+    nothing about the friction of joint 1, which carries no weight.
+    """
     means = STANFORD.compliance.friction
     what = (
         "Coulomb friction of the joints, which varies by up to a quarter of its mean. Without this error, a joint "

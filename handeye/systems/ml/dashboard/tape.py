@@ -125,7 +125,7 @@ class TapeRecorder:
             self._compare()
 
     def statement(self) -> None:
-        """Record what a statement has changed, and add everything to the tape."""
+        """Record what a statement has changed, and add all changes since the previous statement to the tape."""
         self._fast.take(self._machine.now)
         self._look(self._events + self._others, self._machine.now)
         self._compare()

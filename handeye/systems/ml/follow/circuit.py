@@ -48,7 +48,7 @@ class Felt(Record, frozen=True, kw_only=True):
 
     @property
     def turns(self) -> int:
-        """Left turns minus right turns, without the turns of squares in which nothing was touched."""
+        """Left turns minus right turns. Left turns around a square in which the wand touched nothing do not count."""
         return self.left - self.right - ROUND * self.idle
 
     @property

@@ -1,4 +1,4 @@
-"""MAL as a language of planned programs, for the planner."""
+"""MAL as the planner needs it: as a language whose programs become plans."""
 
 from collections.abc import Iterable
 from functools import partial

@@ -260,5 +260,7 @@ class Bench:
         self.machine.light[NUMBERS[f"HAND{arm}"]] = passes
 
     def block(self, arm: int, *, there: bool) -> None:
-        """Fix a block between the fingers of a hand, but not midway. If `there` is False, take the block away."""
+        """If `there` is True, fix a block between the fingers of a hand, but not midway between them. If `there` is
+        False, take the block away.
+        """
         (self.machine.blocks.add if there else self.machine.blocks.discard)(NUMBERS[f"HAND{arm}"])

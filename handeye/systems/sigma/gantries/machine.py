@@ -1,5 +1,5 @@
-"""Simulates the two gantries that are connected to the pins: rotors that magnetic fields pull along, wrists
-that bend, switches, light beams and hands.
+"""Simulates the two gantries, which are connected to the pins of the microcomputers: rotors that magnetic fields pull
+along, wrists that bend, switches, light beams and hands.
 
 The fields of all motors are computed in advance from the pulse trains of their firmware, as tables with one row
 per millisecond. The physics follows these tables. In each millisecond, one matrix product and one comparison
@@ -422,7 +422,7 @@ def _least_over(threshold: float) -> float:
 
 
 def _sensors(model: mujoco.MjModel, kind: mujoco.mjtSensor, names: Sequence[str]) -> list[int]:
-    """Return the addresses of the readings of joints or sites, by name."""
+    """For each of the joints or sites in `names`, return the address of its reading."""
     of = model.site if kind == mujoco.mjtSensor.mjSENS_ACCELEROMETER else model.joint
     known = {
         int(model.sensor_objid[index]): int(model.sensor_adr[index])

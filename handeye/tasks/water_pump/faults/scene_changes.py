@@ -1,4 +1,6 @@
-"""Changes of the scene that represent the faults of parts: a part is removed, displaced, or has the wrong shape."""
+"""Changes of the scene that represent the faults of parts. A change removes a part, displaces it, or gives it a wrong
+shape.
+"""
 
 from __future__ import annotations
 

@@ -103,7 +103,7 @@ def _woven(rng: np.random.Generator) -> Array:
 
 
 def _tiles(rng: np.random.Generator) -> Array:
-    """Return linoleum tiles in alternating tones, two by two in a picture."""
+    """Return a picture of four linoleum tiles, two by two, in alternating tones."""
     half = _SIZE // 2
     tone = np.kron(np.array([[0.94, 0.80], [0.80, 0.94]]), np.ones((half, half)))
     joint = np.arange(_SIZE) % half < 3
