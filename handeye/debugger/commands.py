@@ -1,6 +1,6 @@
 """The functions that execute the stepper's commands on a session. Each function gets the text after the command word.
 
-The table of commands describes each command.
+`command_table.COMMANDS` describes each command.
 """
 
 import math

@@ -84,7 +84,7 @@ class ToolAxes(Axes):
         self._motion = None
 
     def release(self) -> None:
-        """Give up the present goal, because the brakes were set. The arm stands where it is."""
+        """Give up the present goal, because the brakes were set. The arm stays where it is."""
         self.resume(self._pose(self._drive.state.q))
 
     def read(self) -> AxesReading:

@@ -1,4 +1,4 @@
-"""Warns why the result of a resumed run may differ from the result of an uninterrupted run."""
+"""Warns that the result of a resumed run may differ from the result of an uninterrupted run, and says why."""
 
 from collections.abc import Iterator
 

@@ -195,8 +195,8 @@ class _Side:
     def _turned_window(
         self, u: Array, v: Array, offset: Array
     ) -> tuple[list[float], list[float], list[float]]:
-        """Return the sides of the window in the coordinates of this side of the box. For each side of the window: the
-        increment per line outwards, the increment per point along the line, and the offset.
+        """Return the sides of the window in the coordinates of this side of the box. The three lists have, for each
+        side of the window, the increment per line outwards, the increment per point along the line, and the offset.
         """
         outwards, along = (u, v) if self.upright else (v, u)
         if self.backwards:

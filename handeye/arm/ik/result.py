@@ -25,7 +25,7 @@ class IKResult:
     along: float | None = None  # of motions: m along the hand's path
 
     def message(self, arm: ArmModel) -> str:
-        """Write the reason as a sentence. Returns "" if there is a solution."""
+        """Write as a sentence why there is no solution. Returns "" if there is a solution."""
         return "" if self.reason is None else reach_sentence(arm, self.reason)
 
     def cause(self, arm: ArmModel, goal: str = "") -> BeyondArm:

@@ -67,7 +67,7 @@ def title(run: RecordedRun, outcome: Outcome) -> str:
 def verdict(
     run: RecordedRun, outcome: Outcome, told: Sequence[CaptionedEvent], photograph: Photograph
 ) -> Markup:
-    """Return the top of the page."""
+    """Return the top of the page, with the outcome of the run."""
     head = run.trace.head
     arm = f" on the simulated {head.arm} arm" if head.arm else ""
     words = element(

@@ -100,7 +100,7 @@ def _plain(snapshot: Snapshot) -> bytes:
 
 
 class EndOfStage(StopCondition, frozen=True, kw_only=True):
-    """Pause between two stages, but not before this number of steps is done."""
+    """Pause between two stages, once more than `after` steps are done."""
 
     after: int
 

@@ -67,7 +67,9 @@ class Failing:
 
 @dataclass(slots=True, kw_only=True)
 class Campaign:
-    """Runs worlds and remembers what it found. Rows that are already in the folder are not repeated."""
+    """Runs the program in worlds, and remembers the results. Runs whose rows are already in the folder are not
+    repeated.
+    """
 
     trial: RareTrial
     space: WorldSpace

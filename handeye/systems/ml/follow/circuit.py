@@ -35,7 +35,7 @@ Turn = Literal["", "left", "right"]
 
 
 class Felt(Record, frozen=True, kw_only=True):
-    """What a follower has felt, as its computer knows it. Places are given as x and y, in units of the slides."""
+    """What a follower has felt, as far as its computer knows. Places are given as x and y, in units of the slides."""
 
     touches: tuple[Point, ...] = ()
     left: int = 0  # turns

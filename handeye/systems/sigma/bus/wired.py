@@ -388,7 +388,7 @@ class WiredBus(MicrobusPort):
             self.plant.limited(number, node.device.memory.thresholds)
 
     def _listen(self, node: Microcomputer, at: int) -> None:
-        """Let a microcomputer look for a strobe if it is free."""
+        """Let a microcomputer look for a strobe, which it does only if it is free."""
         for taken in node.listen(at, self._memory.sent, self.wires, quiet=not self._speeches()):
             self._say_taken(node.place.number, taken, own=False)
 

@@ -291,7 +291,9 @@ class Gantries(Plant[GantryMemory]):
         return self._step * TICK, seen
 
     def _plan(self) -> None:
-        """Combine the fields of all motors in one table, which begins at the present physics step."""
+        """Put the positions of the magnetic fields of all motors in one table, with a row for each physics step from
+        the present one on.
+        """
         self._first, self._row = self._step, -1
         left = [(field, min(self._step - field.first, len(field.places) - 1)) for field in self._fields]
         rows = max(len(field.places) - gone for field, gone in left)

@@ -1,4 +1,4 @@
-"""Adds furniture and details that only photographs show: tape reels, teletype, clock, boom cables and bevels.
+"""Adds furniture and details that appear only in photographs: tape reels, teletype, clock, boom cables and bevels.
 
 These objects touch nothing, have no mass, and are in a geom group that the television camera does not see.
 """
