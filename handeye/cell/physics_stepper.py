@@ -14,7 +14,7 @@ long steps. If a finger that presses with 80 N lost its contact with the part in
 mm into the part before the next step detected the contact, and would throw the part away.
 
 In middle steps all contacts and couplings are made stiffer in the same way, so a change of the length of the step
-changes no force at rest. Contacts may begin and end in middle steps, except those of the hand. The task names the
+changes no force at rest. All contacts except those of the hand may begin and end in middle steps. The task names the
 *delicate* contacts, which need short steps, and the joints that must be at rest in middle steps. For example, a screw
 that is tightened in middle steps clamps with less force than a screw that is tightened in short steps.
 

@@ -126,7 +126,7 @@ class Threads(Mechanism[ThreadsState]):
         figures: ThreadFigures,
         lines: SignalLines = SOUND,
     ) -> None:
-        """Start with empty holes. The line `magnet` carries a factor on the force of the bit's magnet."""
+        """Start with empty holes. The line `magnet` carries a factor that multiplies the force of the bit's magnet."""
         self._model, self._data, self._driver, self._lines = model, data, driver, lines
         self._carriers, self._figures = Carriers(model, data), figures
         if len(figures.phases) != self._carriers.count:

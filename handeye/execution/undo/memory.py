@@ -53,7 +53,7 @@ def recalled(run: ExecutionContext, before: dict[str, bytes]) -> Memory:
 
 
 def remember(state: ExecutionState, found: Memory) -> None:
-    """Put stored memory back into a state."""
+    """Put a stored memory back into a state."""
     for name, value in found.items():
         here = getattr(state, name)
         if isinstance(here, MutableRecord) and type(here) is type(value):

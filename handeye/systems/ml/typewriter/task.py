@@ -1,4 +1,4 @@
-"""Defines the job `typewriter`, its worlds and its referee: bin, orientation and rail support in one program."""
+"""Defines the job `typewriter` (bin, orientation and rail support in one program), its worlds and its referee."""
 
 from __future__ import annotations
 

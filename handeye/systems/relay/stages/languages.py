@@ -52,7 +52,7 @@ class StageLeg(Record, frozen=True, kw_only=True):
 
 
 class StageLimits(Record, frozen=True, kw_only=True):
-    """Which languages can do a stage, and which of the stage's instructions cannot be written in the other languages."""
+    """Which languages can do a stage, and which of the stage's instructions the other languages cannot express."""
 
     stage: str
     languages: str  # that have a leg

@@ -82,7 +82,7 @@ class _Stop(NamedTuple):
 
 
 class _Draft(NamedTuple):
-    """An operation whose targets are lines."""
+    """An operation whose successors are given as lines of the MAL program."""
 
     operation: AnyOperation
     next: _Stop

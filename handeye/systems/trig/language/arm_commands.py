@@ -59,7 +59,9 @@ def here(session: Session, given: Arguments) -> None:
 
 
 def here_relative(session: Session, given: Arguments) -> None:
-    """SR: store, under a name, the offset from the place where the last step ended to the arm's present place."""
+    """SR: measure the offset of the arm's present place from the place where the last step ended, and store this
+    offset under a name.
+    """
     start = session.program.ended_at
     if start is None:
         raise Refused("no step has moved the arm yet; to measure a distance, use CALPOS and ENDCAL")

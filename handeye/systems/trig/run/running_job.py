@@ -291,7 +291,7 @@ class RunningJob(RunningSystem):
         return completed
 
     def built(self) -> Findings:
-        """Return findings on the finished work before its reversal."""
+        """Return the findings on the finished work as it was before its reversal."""
         turn = self._state.turn
         return self.job.built() if turn is not None and turn.ended else {}
 
