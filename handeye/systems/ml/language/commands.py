@@ -86,7 +86,7 @@ _ROWS: Final[dict[Category, tuple[tuple[str, str, str, str], ...]]] = {
         ("BRANCH", "n1 [n2 [s ...]]", (
             "Without n2, go to n1. With n2, go to n1 if at least one listed sensor fulfils its condition, and to "
             "n2 if none does. The condition of s is that its flag is on, and the condition of -s is that its flag "
-            "is off. If no sensors are listed, the flags of all sensors count."
+            "is off. If no sensors are listed, go to n1 if any flag is on, and to n2 if none is."
         ),
          "400 BRANCH 500 410 5 14"),
         ("BRCOMP", "n1 [n2]", (
