@@ -1,5 +1,5 @@
-"""Motions of the hand on lines and arcs, and motions of single joints. Joint positions and rates are solved exactly
-at every set-point.
+"""Motions of the hand on lines and arcs, and motions of single joints. At every set-point, joint positions and rates
+are computed exactly.
 """
 
 import math

@@ -144,7 +144,7 @@ def smooth_photographs(
     """Take a smooth photograph with each camera; the scene is loaded once. Raises InvalidInput as
     `smooth_photograph` does.
 
-    Each point of a photograph is the mean of four drawn points. More samples for a drawn point would change the
+    Each point of a photograph is the mean of four rendered points. More samples for a rendered point would change the
     photograph by a tenth of a level on average, and would more than double the computing time.
     """
     check_size(width, height)

@@ -56,7 +56,9 @@ def planned(
 
 
 def mistakes(checked: PlannedScript, line: int) -> list[Diagnostic]:
-    """Return the mistakes in a line of a text, or in its required files, that no later line can correct."""
+    """Return the mistakes that no later line can correct, in one line of a text and in the files that the text
+    requires.
+    """
     found = []
     for diagnostic in checked.diagnostics:
         text, offset = checked.source.find(diagnostic.primary.span.start)

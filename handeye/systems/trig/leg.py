@@ -103,7 +103,8 @@ class PlatterAxes(Axes):
 
     def read(self) -> AxesReading:
         """Return the sensed axes. The angles are the goal's angles, corrected by the rotation from the goal to the
-        hand. Near straight down, the angles of the hand itself are ambiguous.
+        hand. They are not computed from the hand alone: when the hand points almost straight down, its own angles are
+        ambiguous.
         """
         read = self._tool.read()
         R = hand(*read.q[:6])[:3, :3] @ hand(*self.told[:6])[:3, :3].T  # close to the identity

@@ -61,8 +61,8 @@ def calls_of(steps: Sequence[int], program: Program, graph: OutcomeGraph) -> tup
 
 
 def _specific(program: Program, number: int) -> set[int]:
-    """Return the errors of a step's guards or, if the step only checks or examines, all its errors except that of the
-    watchdog.
+    """If a step has guards, return the errors of the guards. If a step without guards only checks or examines, return
+    all its errors except that of the watchdog.
     """
     operation = program.steps[number].operation
     if operation.guards:

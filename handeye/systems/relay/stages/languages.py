@@ -89,7 +89,7 @@ def stage_legs(stage: str) -> Iterator[StageLeg]:
 
 
 class TimedProgram(Record, frozen=True, kw_only=True):
-    """A program, and the CPU time of this computer (s) in which it was planned, taught or read."""
+    """A program, and the CPU time (s) that this computer needed to plan, teach or read it."""
 
     program: ProgramPlan
     cpu_s: float

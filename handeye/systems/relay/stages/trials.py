@@ -58,7 +58,7 @@ class StageRow(TrialRow, frozen=True, kw_only=True):
     field is the greatest of these forces. It includes the weight of a held part.
     """
     lines: int = 0
-    plan_cpu_s: float = 0.0  # CPU time of this computer in which the program was planned, taught or read
+    plan_cpu_s: float = 0.0  # CPU time that this computer needed to plan, teach or read the program
 
     @property
     def outcome(self) -> str:

@@ -118,8 +118,8 @@ def _refused(line: Line, why: str, *labels: Label) -> Diagnostic:
 
 
 def _with_one_cure(found: Sequence[Diagnostic]) -> list[Diagnostic]:
-    """Sort refusals. Only the last refusal says what a plan can contain, because that help is the same for all
-    refusals.
+    """Sort refusals. The help that says what a plan can contain is the same for all refusals, so only the last refusal
+    gets it.
     """
     *others, last = arranged(found)
     return [*others, replace(last, help=_CURE)]
