@@ -28,7 +28,9 @@ class Mistake(Exception):
 
 
 def read_operands(definition: Instruction, head: Token, tokens: Sequence[Token]) -> tuple[Value | None, ...]:
-    """Read the value of each operand, or None for an operand that is left out. Raises Mistake."""
+    """Read the value of each operand, or None for an operand that is left out. Raises Mistake if the operands are
+    wrong.
+    """
     if definition.op in FREE_TEXT:
         return _Reader(definition, head, tokens).read()
     try:

@@ -72,7 +72,7 @@ class FilledLine:
         return tuple(dict.fromkeys(given.by for given in self.given.values()))
 
     def at_source(self, values: Sequence[Value | None]) -> tuple[Value | None, ...]:
-        """Return the values, each located where it is written."""
+        """Return the values, each with the span of the text in which it is written."""
         return tuple(
             msgspec.structs.replace(value, start=given.start, end=given.end, use=value.span)
             if value is not None and (given := self.given.get(value.span)) is not None

@@ -76,7 +76,7 @@ class Session(Protocol):
         """True if the user has left."""
 
     def hear(self, line: str) -> None:
-        """Execute a line. Raises InvalidInput."""
+        """Execute a line. Raises InvalidInput if the line cannot be executed."""
 
     def words(self) -> Iterable[str]:
         """Return the words offered as completions."""

@@ -108,7 +108,7 @@ class ErrorOptions:
 
     def check(self, seed: int) -> None:
         """Check seed, level, values and factors, before the program is planned. The names after --without are not
-        checked here, because they can be macros of the program. Raises InvalidInput.
+        checked here, because they can be macros of the program. Raises InvalidInput if an option is wrong.
         """
         replace(self, without=None).spec(seed)
 
@@ -201,7 +201,9 @@ class WorldOptions:
         return msgspec.structs.replace(self.spec, seed=checked_seed(seed))
 
     def check(self) -> None:
-        """Check the options, except --without, before the program is planned. Raises InvalidInput."""
+        """Check the options, except --without, before the program is planned. Raises InvalidInput if an option is
+        wrong.
+        """
         if self.file is None:
             self.errors.check(self.seed or 0)
         else:

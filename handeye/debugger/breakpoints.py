@@ -53,14 +53,14 @@ def breakpoint(text: str, listing: Listing) -> AnyStop:
 
 def stage_number(text: str, listing: Listing) -> int:
     """Return the index of a stage. The user gives the stage's number (counted from 1), its name, or a part of the
-    name that no other stage's name contains. Raises InvalidInput.
+    name that no other stage's name contains. Raises InvalidInput if there is no such stage.
     """
     return stage_index(text, listing.stages)
 
 
 def step_number(text: str, listing: Listing) -> int:
-    """Return the index of a step. The user gives the step's number in the plan, or a label that no other step
-    has. Raises InvalidInput.
+    """Return the index of a step. The user gives the step's number in the plan, or a label that no other step has.
+    Raises InvalidInput if there is no such step.
     """
     text, steps = text.strip(), listing.steps
     if _NUMBER.fullmatch(text):

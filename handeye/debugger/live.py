@@ -63,7 +63,9 @@ class Pace(Observer):
 
 
 def factor(text: str) -> float | None:
-    """Parse a pace, such as `1x`, `4x`, `.5x` or `free`. Returns None for `free`. Raises InvalidInput."""
+    """Parse a pace, such as `1x`, `4x`, `.5x` or `free`. Returns None for `free`. Raises InvalidInput if the text is
+    not a pace.
+    """
     if text.casefold() == FREE:
         return None
     number = re.fullmatch(r"([0-9]{1,3}(?:\.[0-9]{1,6})?|\.[0-9]{1,6})x?", text.casefold())

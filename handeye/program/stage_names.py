@@ -12,7 +12,7 @@ _NUMBER: Final = re.compile(r"[0-9]{1,9}")
 
 def stage_index(text: str, stages: Sequence[str]) -> int:
     """Return the index of a stage. `text` is the number of the stage (from 1), its name, or a unique part of its
-    name. Raises an error if there is no such stage.
+    name. Raises NoSuchName if there is no such stage.
     """
     if _NUMBER.fullmatch(text.strip()):
         if not 1 <= int(text) <= len(stages):

@@ -89,7 +89,7 @@ class LegSystem(ABC):
         return system_named(self.system).encode(plan)
 
     def decode(self, data: bytes, name: str) -> Record:
-        """Decode and check a plan. Messages call the plan `name`. Raises InvalidInput."""
+        """Decode and check a plan. Messages call the plan `name`. Raises InvalidInput if the plan is not valid."""
         plan: Record = system_named(self.system).decode(data, name)
         return plan
 

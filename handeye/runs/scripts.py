@@ -85,7 +85,7 @@ def in_cell(known: Taught, work: Task) -> Taught:
 
 def plan_script(file: Path, known: Taught | None = None, work: Task | None = None) -> "PlannedScript":
     """Compile and plan a script. By default, the function uses the script's own task, and the taught file in the
-    script's folder. Raises InvalidInput.
+    script's folder. Raises InvalidInput if a file cannot be used.
     """
     entry, _ = entry_of_file(file.name)
     if entry is not None:

@@ -199,13 +199,15 @@ class RunningSystem(Protocol):
 
     @abstractmethod
     def begin(self) -> Sequence[AnyEvent]:
-        """Prepare the first step. Returns the events that begin the run at time 0, with `RunStarted` first.
-        Raises Halted.
+        """Prepare the first step. Returns the events that begin the run at time 0, with `RunStarted` first. Raises
+        Halted if the panic button is pressed.
         """
 
     @abstractmethod
     def step(self) -> None:
-        """Execute one step. After an interruption, the whole step is repeated. Raises Halted or PhysicsFailed."""
+        """Execute one step. After an interruption, the whole step is repeated. Raises Halted if the panic button is
+        pressed, or PhysicsFailed if the simulation breaks down.
+        """
 
     def halt(self) -> None:
         """Bring the machine to rest in a safe state, for example with its brakes on, because the run cannot continue.
@@ -391,7 +393,7 @@ class System(ABC):
 
     @abstractmethod
     def decode(self, data: bytes, name: str) -> Any:
-        """Decode and check a plan. Messages call the plan `name`. Raises InvalidInput."""
+        """Decode and check a plan. Messages call the plan `name`. Raises InvalidInput if the plan is not valid."""
 
     def digest(self, plan: Any, data: bytes) -> str:
         """Return sixteen hexadecimal digits that identify a plan. `data` is the encoded plan."""

@@ -116,7 +116,9 @@ class BatchFolder(Generic[R]):
     def __init__(
         self, path: Path, sweep: Sweep[R], head: Head, plan: Plan | None = None, *, anew: bool = False
     ) -> None:
-        """Begin or continue a batch. If `anew` is True, delete the old batch first. Raises InvalidInput."""
+        """Begin or continue a batch. If `anew` is True, delete the old batch first. Raises InvalidInput if the folder
+        cannot be used.
+        """
         self.path, self._sweep = path, sweep
         _check(path, sweep, head, plan, anew=anew)
         try:

@@ -60,7 +60,7 @@ def settled(frames: Frames) -> Frames:
 
 
 def _changed(frame: Photograph, shown: Photograph) -> NDArray[np.bool_]:
-    """Return the mask of the pixels in blocks that differ enough, shape (height, width)."""
+    """Return a mask, shape (height, width), of the blocks in which the two pictures differ by more than `_ALIKE`."""
     height, width = frame.shape[:2]
     rows, columns = -(-height // _BLOCK), -(-width // _BLOCK)
     differs = np.zeros((rows * _BLOCK, columns * _BLOCK), dtype=bool)

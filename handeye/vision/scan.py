@@ -183,7 +183,9 @@ class Scan:
         return math.floor(back), math.floor(ahead)
 
     def _heights(self, places: Array) -> Array:
-        """Return the signed distances of places from the sides of the window, not normalised: shape (n, sides)."""
+        """Return the signed distances of places from the sides of the window, shape (n, sides). Each distance is
+        multiplied by the length of the side's normal vector.
+        """
         return np.asarray(places @ self.sides[:, :2].T + self.sides[:, 2])
 
     def levels(self, places: Places) -> NDArray[np.float32]:

@@ -80,8 +80,8 @@ class Ml:
         return self._program.listing()
 
     def load(self, text: str) -> None:
-        """Store the numbered lines of a program, and execute the lines that have no number. Raises MlError or
-        BadArgument.
+        """Store the numbered lines of a program, and execute the lines that have no number. Raises MlError if a line
+        cannot be executed, and BadArgument if a line cannot be read.
         """
         for line in text.splitlines():
             self.do(line)

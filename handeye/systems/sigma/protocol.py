@@ -100,7 +100,7 @@ ANSWERS: Final[dict[Op, int]] = {
 
 
 def number_of(name: str | int) -> int:
-    """Return the number of a microcomputer. Raises NoSuchName."""
+    """Return the number of a microcomputer. Raises NoSuchName if there is no microcomputer of this name."""
     if isinstance(name, int):
         if not 0 <= name <= 0xFF:
             raise BadArgument(f"the number of a microcomputer must be between 0 and 255, not {name}")

@@ -90,7 +90,7 @@ class WorldSpace:
         return quantity.distribution.standard(np.random.default_rng(0)) is not None
 
     def _value(self, quantity: Quantity, number: float) -> float:
-        """Return the value of a quantity, SI."""
+        """Return the value of a quantity, in SI units."""
         factor = self._variation.factor(quantity, self._base) if quantity.distribution.is_error else 1.0
         nominal = quantity.nominal
         away = factor * (quantity.distribution.at(number, nominal) - nominal)

@@ -75,7 +75,8 @@ def planted(
     Args:
         calls: the messages that name the fault.
         harmless: why the work can succeed despite the fault; empty if the program must notice the fault.
-        when: `before` if the fault is present from the start; `later` if the fault can also begin after a time.
+        when: `before` if the fault is present from the start; `later` if the fault can also begin some time after the
+            start.
     """
     expected = ExpectedDetection(calls=calls, harmless=harmless)
     return FaultKind(name=name, meaning=meaning, size=size, when=when, expected=expected)

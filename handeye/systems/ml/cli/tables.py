@@ -99,7 +99,7 @@ def _known(table: str) -> str:
 
 
 def _cycle(at: str | None, done: "History") -> int:
-    """Return the cycle that `--at` gives. Raises BadArgument."""
+    """Return the cycle that `--at` gives. Raises BadArgument if it is not a cycle of the run."""
     from handeye.systems.ml.machine.spec import CYCLES_PER_SECOND
 
     if at is None:
@@ -116,7 +116,7 @@ def _cycle(at: str | None, done: "History") -> int:
 
 
 def _recorded(run: Path) -> "History":
-    """Return the tables of a run in a folder. Raises BadFile."""
+    """Return the tables of a run in a folder. Raises BadFile if the folder has no tables of a run."""
     from handeye.runs.folder import check_holds_run
     from handeye.systems.ml.dashboard.kept import kept_history
 
@@ -131,7 +131,7 @@ def _recorded(run: Path) -> "History":
 
 
 def _ran(file: Path, sense: list[str] | None) -> "History":
-    """Run a program on perfect motors, and return its tables. Raises InvalidInput."""
+    """Run a program on perfect motors, and return its tables. Raises InvalidInput if the program cannot be run."""
     from handeye.core.source import read_source
     from handeye.core.variation import WorldSpec
     from handeye.runs.advance import advance

@@ -141,7 +141,7 @@ def packed(done: History) -> bytes:
 
 
 def unpacked(data: bytes, name: str) -> History:
-    """Read a history from a compressed file. Raises BadFile."""
+    """Read a history from a compressed file. Raises BadFile if the file is not a valid history."""
     reader = zlib.decompressobj(wbits=31)
     try:
         stream = reader.decompress(data, _EXPANDED)

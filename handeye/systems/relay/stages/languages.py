@@ -75,7 +75,7 @@ def shared() -> tuple[str, ...]:
 
 
 def stage_named(name: str) -> str:
-    """Return a stage by its name. Raises NoSuchName."""
+    """Return a stage by its name. Raises NoSuchName if the pump's own program has no such stage."""
     if name not in stages():
         near = suggestion(name, stages()) or f"the stages are {', '.join(map(quoted, stages()))}"
         raise NoSuchName(f"the pump's own program has no stage {quoted(name)}; {near}")

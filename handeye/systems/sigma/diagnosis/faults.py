@@ -247,7 +247,9 @@ FAULTS: Final[dict[str, Fault]] = {
 
 
 def planted(name: str, seed: int | None = None) -> Planted:
-    """Return the fault called `name`, at its usual place, or at a random one if a seed is given. Raises NoSuchName."""
+    """Return the fault called `name`, at its usual place, or at a random one if a seed is given. Raises NoSuchName if
+    there is no such fault.
+    """
     if name not in FAULTS:
         raise NoSuchName(f"there is no fault {quoted(name)}; the faults are {', '.join(FAULTS)}")
     rng = None if seed is None else random_numbers(seed, f"diagnosis {name}")

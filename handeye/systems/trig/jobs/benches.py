@@ -80,7 +80,9 @@ class TaughtPlan(Record, frozen=True, kw_only=True):
 
 
 def read_taught_plan(data: bytes, name: str) -> TaughtPlan:
-    """Decode a plan, without executing its script. Raises BadFile."""
+    """Decode a plan, without executing its script. Raises BadFile if the data are not a plan, or if the script is too
+    long.
+    """
     try:
         plan = msgspec.json.decode(data, type=TaughtPlan)
     except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as error:

@@ -65,7 +65,7 @@ def stripped(line: str) -> str:
 
 
 def command_of(word: str) -> TrigCommand:
-    """Return the command for a word in upper or lower case. Raises NoSuchName."""
+    """Return the command for a word in upper or lower case. Raises NoSuchName if there is no such command."""
     upper = word.upper()
     command = COMMANDS.get(SYNONYMS.get(upper, upper))
     if command is not None:

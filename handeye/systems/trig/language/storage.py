@@ -157,7 +157,7 @@ def write_program(path: Path, program: TrigProgram) -> None:
 
 
 def read_program(path: Path) -> TrigProgram:
-    """Read a program, with its positions as they were defined. Raises BadFile."""
+    """Read a program, with its positions as they were defined. Raises BadFile if the file is not a valid TRIG program."""
     return decoded(read_whole(path, LARGEST), str(path))
 
 
@@ -215,7 +215,9 @@ def _node_fields(graph: Graph, node: Node, numbers: Mapping[int, int]) -> dict[s
 
 
 def decoded(content: bytes, name: str) -> TrigProgram:
-    """Return the program in the content of a file. Messages call the file `name`. Raises BadFile."""
+    """Return the program in the content of a file. Messages call the file `name`. Raises BadFile if the content is not
+    a valid TRIG program.
+    """
     try:
         return _program(content)
     except (msgspec.DecodeError, UnicodeDecodeError, RecursionError):

@@ -41,7 +41,7 @@ def declared(
 
 
 def broken(those: Iterable[PumpFault[B]], faults: Sequence[Fault]) -> list[tuple[Fault, B]]:
-    """Return each fault of a run, `faults`, that is among the declared faults `those`, together with its declared
+    """Return the faults of a run (`faults`) that are also among the declared faults (`those`), each with its declared
     effect.
     """
     known = {fault.name: fault.breaks for fault in those}

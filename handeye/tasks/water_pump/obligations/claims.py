@@ -231,7 +231,7 @@ class PumpClaims:
         )
 
     def corner(self, corner: int) -> Contact:
-        """Return the contact of the hand with the bare face near one of four holes."""
+        """Return the contact of the hand with the bare face of the base near one of four holes."""
         low, high = base_top(), base_top() + 0.45 * INCH
         return self.places.touched(self.places.over_hole(_CORNERS[corner], 0.6 * INCH, low, high))
 
