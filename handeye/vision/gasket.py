@@ -3,7 +3,7 @@
 In the difference of the pictures the gasket is a bright blob with two dark holes. There is little difference wherever
 the base or the gasket has a hole. If the gasket is displaced, each dark hole in the difference is therefore the
 *union* of a hole of the gasket and the hole of the base below it. The centre of the union moves by only half the
-displacement, but its border moves on one side by all of the displacement. Therefore both the centre and the rim are
+displacement, but its border moves on one side by all of the displacement. Therefore both the centre and the border are
 tested. If the gasket is in its place, `gasket_sheet` checks that the gasket is whole.
 """
 

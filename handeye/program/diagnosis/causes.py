@@ -159,7 +159,9 @@ class OutsidePicture(CauseRecord, frozen=True, kw_only=True):
 
 
 class FaintPicture(CauseRecord, frozen=True, kw_only=True):
-    """The earlier picture has too little contrast, in grey levels, to show whether the part has changed."""
+    """The contrast of the earlier picture is too low to show whether the part has changed. Both numbers are in grey
+    levels.
+    """
 
     contrast: float
     least: float

@@ -98,7 +98,7 @@ def arm_of(bench: Bench, world: ArmWorld) -> RectilinearArm:
 
 
 class FaultyArm(RectilinearArm):
-    """The arm with faults, each of which is present from the start, or begins after a time."""
+    """The arm with faults. Some faults are present from the start; others begin after a time."""
 
     def __init__(self, bench: Bench, world: ArmWorld) -> None:
         faults = () if world.spec is None else world.spec.faults
