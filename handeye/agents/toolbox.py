@@ -41,7 +41,7 @@ class Toolbox:
     # -- reading ----------------------------------------------------------------------------------------
 
     def docs(self, asked: requests.Docs, call: Call) -> Reply:
-        """Return a page of the documentation, its index, or an included script."""
+        """Return a page of the documentation, the index of the pages, or an included script."""
         text = included(asked.topic)
         if text is None:
             folder = resources.docs()

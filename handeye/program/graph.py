@@ -147,7 +147,7 @@ class Graph:
 
     def loop(self, start: int, known: set[int]) -> set[int]:
         """Return the steps that can be reached from `start`, or an empty set if one of these steps leads into `known`.
-        Adds the steps that can be reached to `known`.
+        Adds the reachable steps to the set `known`.
         """
         found = reachable([start], self.onward, known)
         met = any(target in known for number in found for target in self.onward[number])
