@@ -39,8 +39,8 @@ class Watchdog:
         self.tripped = self.tripped and not braked
 
     def wait(self, seconds: float) -> None:
-        """Count the next `seconds`, in which the drives hold the last command. The watchdog trips if the counted time
-        exceeds a servo period.
+        """Add the next `seconds` to the time since the last command. During these seconds, the drives hold that
+        command. The watchdog trips if the total exceeds a servo period.
         """
         self.unanswered += seconds
         self.tripped = self.tripped or self.unanswered > self.period * (1 + _LATE)

@@ -95,9 +95,9 @@ def specific_by(name: str, function: Callable[..., Any]) -> Specific:
 
 
 def inspect_by(name: str, function: Callable[..., Any]) -> Inspect:
-    """Wrap a function that returns True if a gasket is in place. The function takes the picture before the gasket was
-    laid, the picture after the gasket was laid, the view, the part under the gasket, and the pose x, y (m), yaw (rad)
-    of this part.
+    """Wrap a function that returns True if a gasket is in place. The function takes two pictures, one taken before and
+    one taken after the gasket was laid. It also takes the view, the part under the gasket, and the pose x, y (m), yaw
+    (rad) of this part.
     """
 
     def inspected(before: Picture, after: Picture, view: View, part: Part, pose: Pose2D) -> GasketInspection:

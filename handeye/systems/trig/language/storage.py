@@ -21,7 +21,7 @@ from handeye.systems.trig.language.program import TrigProgram
 
 
 def faults(graph: Graph, positions: Positions) -> Iterator[str]:
-    """Yield the violations of the invariants in words; none if the program is valid."""
+    """Describe in words each invariant that is violated. Yields nothing if the program is valid."""
     torn = list(_edge_faults(graph))
     if not torn and not _has_tree(graph):
         torn = ["some steps are not connected to the top"]
