@@ -87,7 +87,7 @@ class GuardsUnmet(CauseRecord, frozen=True, kw_only=True):
 
 
 class TravelOutside(CauseRecord, frozen=True, kw_only=True):
-    """The last straight motion, `travel` (m), was too short or too long."""
+    """The last straight motion was too short or too long. `travel` (m) is the length of this motion."""
 
     travel: float
     minimum: float
