@@ -221,8 +221,8 @@ def compare_trials(
     error of the world, changes the success rate.
 
     All batches must be of the same kind. Each comparison counts only the trials that are in both of its batches. `p`
-    is the p-value of McNemar's exact test. If neither batch were better, the pairs with different outcomes would
-    divide at least as unequally as they did with the probability `p`.
+    is the p-value of McNemar's exact test: if neither batch is better, the probability that the pairs with different
+    outcomes divide at least as unequally as they did.
     """
     from handeye.trials.comparing import paired
     from handeye.trials.folder import read_batch
