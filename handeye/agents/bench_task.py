@@ -151,8 +151,8 @@ class BenchTask(msgspec.Struct, frozen=True, kw_only=True, dict=True):
         return msgspec.structs.replace(spec, faults=planted)
 
     def setups(self, folder: Path, seeds: Sequence[int]) -> list[Setup]:
-        """Return the runs that judge the solution in a folder, one for each seed. Raises InvalidInput if there is no
-        solution, or if it has errors.
+        """Return the setups of the runs in which the solution in a folder is judged, one for each seed. Raises
+        InvalidInput if there is no solution, or if it has errors.
         """
         own = AgentFolder(folder.resolve())
         text = self._checked(own)

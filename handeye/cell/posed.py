@@ -1,4 +1,4 @@
-"""A scene with its bodies at recorded poses, for pictures of a recorded run without simulation."""
+"""A scene with its bodies at recorded poses. From this scene, pictures of a recorded run are drawn without simulation."""
 
 import copy
 from collections.abc import Iterable, Mapping, Sequence

@@ -56,7 +56,7 @@ class Taken(CannotWrite):
 
 
 class Refused(InvalidInput):
-    """Raised for a valid request that this machine, system or state cannot execute."""
+    """Raised for a valid request that this machine or system cannot execute, or cannot execute in its present state."""
 
 
 class PhysicsFailed(HandeyeError):

@@ -73,7 +73,7 @@ def read_whole(path: str | Path, largest: int = LARGEST) -> bytes:
 
 
 def beside(path: Path, ending: str) -> Path:
-    """Return the path with the ending `ending` instead of its own. Raises CannotWrite if the path is a directory."""
+    """Return the path with its ending replaced by `ending`. Raises CannotWrite if the path is a directory."""
     if not path.name:
         raise CannotWrite(f"{path} is a directory, not a file")
     return path.with_suffix(ending)

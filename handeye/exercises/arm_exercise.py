@@ -1,4 +1,4 @@
-"""Defines exercises for programs of the arm language, which are judged in worlds with fixed seeds."""
+"""Defines exercises in which programs of the arm language are judged in worlds with fixed seeds."""
 
 from __future__ import annotations
 

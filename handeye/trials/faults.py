@@ -172,8 +172,9 @@ class FaultWork:
 def usual(
     catalogue: Catalogue, kinds: Sequence[FaultKind], stage: int | None, stages: int
 ) -> dict[str, Fault]:
-    """Return the faults at their usual sizes. The keys are the faults in the form in which users type them. Faults
-    that can begin during a run begin with `stage`; `stages` is the number of stages of the program.
+    """Return the faults at their usual sizes. The keys are the faults in the form in which users type them. If a fault
+    can begin during a run, it begins at the stage `stage` or, if `stage` is None, at the usual stage of the fault.
+    `stages` is the number of stages of the program.
     """
     first = [None if kind.from_start else stage or min(kind.usual_stage or 0, stages) for kind in kinds]
     found = [kind.usual(each or None) for kind, each in zip(kinds, first, strict=True)]

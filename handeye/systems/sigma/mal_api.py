@@ -145,7 +145,7 @@ class Mal:
         return [f"{event.time:6.2f} s  {event.sentence(MILLIMETRES)}" for event in self._events]
 
     def status(self, axis: str) -> str:
-        """Return the state of a motor: `free` or `busy`. After an abort, return the reason of the abort (`rail` or
+        """Return the state of a motor: `free` or `busy`. After an abort, return the reason for the abort (`rail` or
         `force`).
         """
         if axis not in AXES:

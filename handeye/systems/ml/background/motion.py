@@ -1,4 +1,4 @@
-"""The motion commands, and POINT. No motion moves anything while the flag of a sensor is on."""
+"""The motion commands, and POINT. While the flag of any sensor is on, a motion command moves nothing."""
 
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Final

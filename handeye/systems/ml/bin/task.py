@@ -134,7 +134,7 @@ class Bin(ArmTask):
         return FAULTS
 
     def station(self, parts: int, world: ArmWorld) -> Station:
-        """Return the station with two boxes and a hopper, into which the parts fall when the simulation begins."""
+        """Return the station with two boxes and a hopper. When the simulation begins, the parts fall into the hopper."""
         spec = scene(world, wand=False)
         add_hopper(spec, world.value(SMOOTH))
         add_boxes(spec)
@@ -179,7 +179,7 @@ class Bin(ArmTask):
 
 
 def poured(spec: mujoco.MjSpec, world: ArmWorld, parts: int, place: Place = ORIGIN) -> Pile:
-    """Put parts above a hopper, into which they fall when time begins.
+    """Put parts above a hopper. When the simulation begins, the parts fall into the hopper.
 
     Args:
         place: where the middle of the hopper is in the scene (m).

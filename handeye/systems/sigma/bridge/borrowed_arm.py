@@ -50,8 +50,8 @@ _MM: Final = 0.001
 class BorrowedArm(PerfectMotors):
     """Moves the tool of an arm as the motors of arm 1 would move the hand of arm 1.
 
-    There is no reflex at the standard limit, because this arm feels several newtons even in free motion. After LIMIT
-    has set a force for an axis, a motion of this axis stops within a servo period after the force is exceeded. The
+    There is no reflex at the standard limit, because this arm feels several newtons even in free motion. If LIMIT has
+    set a force for an axis, a motion of this axis stops at most one servo period after this force is exceeded. The
     motors of SUPERSIGMA stop within a millisecond.
     """
 

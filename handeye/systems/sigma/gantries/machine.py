@@ -400,7 +400,7 @@ def _hold(lags: Array, begins: Array, ends: Array) -> Array:
 
 
 def _field(motor: Motor, first: int) -> Field:
-    """Return the positions and speeds of a motor's field in the physics steps from `first`."""
+    """Return the positions and speeds of a motor's field from the physics step `first` on."""
     memory = motor.memory
     if memory.train is None:
         return Field(first, np.array([float(memory.pulses)]), np.zeros(1))

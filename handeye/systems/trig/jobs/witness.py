@@ -67,7 +67,7 @@ class Witness(Mechanism[InitialScene]):
         self.began = InitialScene(blocks={}, hand=(0.0,) * len(PURBRICK.axes), taught={})
 
     def look(self, data: mujoco.MjData, names: Iterable[str], program: TrigProgram) -> None:
-        """Record the scene with these blocks, and the taught positions of a program."""
+        """Record the poses of the blocks `names` and of the hand, and the taught positions of a program."""
         now = stands(data, names)
         taught = {name: position.init for name, position in program.positions.items()}
         self.began = InitialScene(blocks=now.blocks, hand=now.hand, taught=taught)

@@ -83,7 +83,7 @@ class OutOfTravel(Refused):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Arrival:
-    """How a guarded move ended. `force` is the weighted force (N)."""
+    """How a guarded move ended. `force` is the force (N), weighted by the force vector of the move."""
 
     kind: Literal["reached", "tripped", "halted"]
     force: float = 0.0
