@@ -134,7 +134,7 @@ class Bin(ArmTask):
         return FAULTS
 
     def station(self, parts: int, world: ArmWorld) -> Station:
-        """Return the station with two boxes and a hopper. When the simulation begins, the parts fall into the hopper."""
+        """Return the station with two boxes and a hopper. The parts fall into the hopper when the simulation begins."""
         spec = scene(world, wand=False)
         add_hopper(spec, world.value(SMOOTH))
         add_boxes(spec)
