@@ -1,4 +1,6 @@
-"""A scene with its bodies at recorded poses. From this scene, pictures of a recorded run are drawn without simulation."""
+"""A scene with its bodies at recorded poses. Pictures of a recorded run are drawn from this scene, without
+simulation.
+"""
 
 import copy
 from collections.abc import Iterable, Mapping, Sequence
