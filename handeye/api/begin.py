@@ -250,7 +250,9 @@ def _built(start: Start, parts: Parts, keeping: RunEnding, halt: Callable[[], bo
             folder.close()
             folder.discard()
         if isinstance(error, Halted):
-            raise Refused("the run was halted while its cell was being prepared; nothing was begun") from None
+            raise Refused(
+                "the run was halted while its cell was being prepared, so the run did not begin"
+            ) from None
         raise
     doubts = cautions(runner, judged=keeping.judged and keeping.referee is None)
     lost = () if folder is None else losses(folder, runner)

@@ -37,7 +37,7 @@ class SnapshotCell:
         names = [part.name for part in self._mechanisms]
         if len({*names}) < len(names):
             raise ValueError(
-                f"devices and mechanisms of a cell need different names; these are {', '.join(names)}"
+                f"devices and mechanisms of a cell need different names; the given names are {', '.join(names)}"
             )
         self._changes = sorted({field for part in self._mechanisms for field in part.changes})
 

@@ -120,7 +120,9 @@ def _describe(chosen: "Exercise", *, json: bool) -> int:
 
 
 def _begin(chosen: "Exercise", *, overwrite: bool, json: bool) -> int:
-    """Write the program from which a student starts. Nothing is written if one of the files already exists."""
+    """Write the program from which a student starts, and its taught positions, if any. Nothing is written if the file
+    of the program or of the positions already exists, unless `overwrite` is True.
+    """
     program = Path(chosen.start)
     files = {program: chosen.program.text}
     if chosen.positions is not None:

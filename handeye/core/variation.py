@@ -60,7 +60,7 @@ class Quantity:
     limits: tuple[float, float] = (-np.inf, np.inf)  # range it can be set to
     where: tuple[str, float] | None = None
     """The choice on which the quantity depends: name and value (SI). Only worlds in which the choice has this value
-    have the quantity; None if all worlds have it.
+    have the quantity. If `where` is None, all worlds have the quantity.
     """
     source: str  # meaning, and source of its figures
     unsourced: str = ""

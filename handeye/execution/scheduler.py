@@ -135,7 +135,7 @@ def run(clock: Clock, tasks: Sequence[Task[T]], names: Sequence[str] = ()) -> li
     names = names or [f"task {number + 1}" for number in range(len(tasks))]
     running = dict(zip(names, tasks, strict=True))
     if len(running) < len(tasks):
-        raise BadArgument(f"tasks need different names; these are {', '.join(names)}")
+        raise BadArgument(f"tasks need different names; the given names are {', '.join(names)}")
     agenda: Agenda[Fraction] = Agenda(now=Fraction(0))
     until: dict[str, Until] = {}
     ended: dict[str, T] = {}

@@ -53,7 +53,8 @@ def quadrilateral(given: object) -> Array:
     if not ((turns > 0).all() or (turns < 0).all()):
         corners = ", ".join(f"({u:g}, {v:g})" for u, v in found.tolist())
         raise BadArgument(
-            f"the corners of a window must be in order around a convex quadrilateral, which {corners} are not"
+            f"the corners of a window must be in order around a convex quadrilateral, but the corners {corners} are "
+            "not"
         )
     return found
 

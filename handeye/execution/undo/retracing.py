@@ -78,8 +78,8 @@ class EarlyContact:
 
 
 RAMP: Final = 8
-"""Number of servo periods for speeding up and for slowing down. Our choice. The path needs both, because a motion that
-was ended by a force did not slow down at its end.
+"""Number of servo periods in which the arm speeds up at the start of the reverse path, and in which it slows down at
+the end. Our choice. A recorded path may lack such a ramp: a motion that a force ended did not slow down at its end.
 """
 JOIN: Final = 5e-4
 """Speed (rad or m per servo period) at which the joints move from the present position to the end of the recorded

@@ -37,7 +37,8 @@ def stages(
     language: Annotated[
         list[Language] | None,
         Parameter(
-            help="Language of the legs; may be repeated. 1973 is the arm language. Default: all that can do the stage.",
+            help="Language of the legs; may be repeated. 1973 is the arm language. Default: all languages that can "
+            "do the stage.",
             consume_multiple=False,
         ),
     ] = None,

@@ -17,7 +17,9 @@ from handeye.tasks.water_pump.world.stations import stations
 BELT_X: Final = (41.5, 47.5)
 BELT_Y: Final = (23.0, 33.0)
 BELT_LINE: Final = (60.0, 120.0)
-"""Ranges of the base on the belt: reference point (in), and direction of the line between its hole centres (deg)."""
+"""Where the base may lie on the belt: the ranges of x and y of its reference point (in), and the range of the
+direction of the line between the centres of its two large holes (deg).
+"""
 RUBBING: Final = ("pad", "table", "part", "thread")
 DRILLED: Final = ("base", "gasket", "top")  # the parts with screw holes, each drilled with errors of its own
 STOOD: Final = ("gasket", "top")
