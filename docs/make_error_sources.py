@@ -46,7 +46,7 @@ def _tables() -> Iterator[str]:
     for those in _rows(without):
         yield f"| {_names(those)} | {_sizes(those, told)} | {those[0].source} | {_sentence(those[0].unsourced)} |\n"
     yield "\n## From a study or an inference of ours\n\nNo document gives these sizes. The [studies](studies.md) mark "
-    yield "theirs as chosen, as fitted to a figure of 1973, or as placeholders.\n"
+    yield "each of their sizes as chosen, as fitted to a figure of 1973, or as a placeholder.\n"
     yield from _sourced(ours, told)
     yield "\n## From a document, or with a size that needs no source\n"
     yield from _sourced(rest, told)

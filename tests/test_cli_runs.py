@@ -555,7 +555,10 @@ def test_a_trace_that_was_lost_is_told_of_and_shows_nothing_that_it_does_not_hol
         checkpoint.unlink()
     _, _, err = command("resume", "again")
     assert "resuming after 5 steps: feel" in err
-    assert "the trace in again was lost or damaged: the trace does not contain the motions before " in err
+    assert (
+        "the old trace in again was lost or damaged: the new trace does not contain the motions before "
+        in err
+    )
     code, _, err = command("trace", "verify", "again")
     assert (code, "are not in this trace and were not compared" in err) == (0, True)
     code, _, err = command("trace", "photograph", "again", "--at", "1", "-o", "it.png")

@@ -165,7 +165,7 @@ REFUSALS = {
         "--size",
         "65x48",
     ): "a WebM video of 65 x 48 cannot be made; width and height must be even",
-    ("-o", "it.gif"): "it.gif: a GIF would be seven times as large, with only 256 colours",
+    ("-o", "it.gif"): "it.gif: a GIF would be seven times as large as a WebP picture, with only 256 colours",
     ("-o", "nowhere/it.webp"): "nowhere/it.webp cannot be written: No such file or directory",
 }
 

@@ -81,7 +81,8 @@ def test_a_world_of_another_version_is_refused(command: Command, recorded: str) 
     other = begins_otherwise(world=msgspec.structs.replace(head("run").world, drawing=DRAWING - 1))
     assert refused(command, recorded, "--world-of", other) == (
         "the world of other.jsonl comes from another version of handeye: seed 3 gives a different world here "
-        f"(rules that generate worlds: version {DRAWING - 1} there, version {DRAWING} here)"
+        f"(the rules that generate worlds have version {DRAWING - 1} in that version of handeye, "
+        f"and version {DRAWING} in this one)"
     )
 
 

@@ -1,4 +1,4 @@
-"""Lets an entrant of the bench solve a task: it runs the entrant's command in a folder, and gives feedback."""
+"""Lets an entrant of the bench solve a task: runs the entrant's command in a folder, and gives feedback."""
 
 import os
 import shlex

@@ -50,8 +50,8 @@ class TaskFiles:
         return own | made
 
     def text(self, name: str, without: frozenset[str] = frozenset()) -> str:
-        """Return the text of the file `FOLDER/NAME`. `without` names the files that are derived from this file, and
-        for which it is being read.
+        """Return the text of the file `FOLDER/NAME`. If this file is read to derive other files from it, `without`
+        names these other files; none of them may be read again.
         """
         place = f"{self.folder.name}/{name}"
         if name not in self.derived:

@@ -56,7 +56,7 @@ class Case(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     right: Right = Right()
     replace: dict[
         str, str
-    ] = {}  # lines of the solution, by the lines that the organiser puts in their places
+    ] = {}  # for lines of the solution, the lines that the organiser puts in their places
     job: str = ""  # variant of the job, such as a number of pieces
 
 
@@ -75,7 +75,9 @@ class _File(Case, frozen=True, forbid_unknown_fields=True, kw_only=True):
     kept: str = ""  # regular expression for lines that a solution must keep, in their order
     orders: bool = False  # the program is judged in every order of its tasks, and not in worlds
     variants: list[dict[str, dict[str, Any] | str]] = []
-    """Changes of the case. A world has the variant whose number is its seed modulo the number of variants."""
+    """Variants of the case, each as the fields that it changes. The number of a world's variant is the seed of the
+    world modulo the number of variants.
+    """
     derived: dict[str, Derived] = {}
 
 
@@ -149,8 +151,8 @@ class BenchTask(msgspec.Struct, frozen=True, kw_only=True, dict=True):
         return msgspec.structs.replace(spec, faults=planted)
 
     def setups(self, folder: Path, seeds: Sequence[int]) -> list[Setup]:
-        """Return the runs that judge the solution in a folder, one for each seed. Raises InvalidInput if there is no
-        solution, or if it has errors.
+        """Return the setups of the runs in which the solution in a folder is judged, one for each seed. Raises
+        InvalidInput if there is no solution, or if it has errors.
         """
         own = AgentFolder(folder.resolve())
         text = self._checked(own)
@@ -170,8 +172,8 @@ class BenchTask(msgspec.Struct, frozen=True, kw_only=True, dict=True):
 
     def problems(self, folder: Path) -> list[tuple[bool, str]]:
         """Try the solution in a folder in every order of its tasks, and return its problems, the worst first. Each
-        problem is a pair: True if the program does not notice the problem, and a sentence. Raises InvalidInput if
-        there is no solution, or if it has errors.
+        problem is a pair: a flag, which is True if the program does not notice the problem, and a sentence that
+        describes the problem. Raises InvalidInput if there is no solution, or if it has errors.
         """
         text = self._checked(AgentFolder(folder.resolve()))
         entry, _ = entry_of_file(self.program)
@@ -211,7 +213,10 @@ class BenchTask(msgspec.Struct, frozen=True, kw_only=True, dict=True):
 
 
 def _replaced(text: str, lines: Mapping[str, str]) -> str:
-    """Return a program in which some lines are replaced. Each replaced line is one that a solution must keep."""
+    """Return a program in which each line that is a key of `lines` is replaced by the value of this key.
+
+    A solution must keep the lines that are keys.
+    """
     return "\n".join(lines.get(line, line) for line in text.splitlines()) + "\n"
 
 

@@ -1,4 +1,4 @@
-"""Hidden seeds of the agents' bench: their file, and the commitment to them."""
+"""Hidden seeds of the agents' bench: their file, and the published hash that fixes them."""
 
 import hashlib
 from collections.abc import Mapping, Sequence

@@ -75,7 +75,7 @@ def on_plan(plan: Plan, stage: int | None) -> Reply:
 
 
 def on_world(task: str, quantities: Sequence[QuantityReport]) -> Reply:
-    """Reply with the way in which each quantity varies between worlds. The reply never gives the value in one world."""
+    """Reply with how each quantity varies between worlds. The reply never gives the value in one world."""
     rows = [
         {
             "name": each.name,

@@ -18,8 +18,8 @@ Script = Annotated[
     Meta(
         min_length=1,
         max_length=500_000,
-        description="The text of a script, which contains a line break; or the name of a file in the agent's folder "
-        "(pin.al); or the name of an included program (insertion, water_pump).",
+        description="The text of a script (it must contain a line break); or the name of a file in the agent's "
+        "folder (pin.al); or the name of an included program (insertion, water_pump).",
     ),
 ]
 TaughtPositions = Annotated[
@@ -193,7 +193,7 @@ class Fork(Request, frozen=True, kw_only=True):
         Meta(
             max_length=200,
             description=(
-                "Begin the new run before this stage. Default: begin at the present state of the run."
+                "The new run begins with this stage. Default: it begins at the present state of the run."
             ),
         ),
     ] = ""

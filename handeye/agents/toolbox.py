@@ -41,7 +41,7 @@ class Toolbox:
     # -- reading ----------------------------------------------------------------------------------------
 
     def docs(self, asked: requests.Docs, call: Call) -> Reply:
-        """Return a page of the documentation, its index, or an included script."""
+        """Return a page of the documentation, the index of the pages, or an included script."""
         text = included(asked.topic)
         if text is None:
             folder = resources.docs()
@@ -149,7 +149,7 @@ class Toolbox:
         return replies.on_result(name, result)
 
     def submit(self, asked: requests.Submit, call: Call) -> Reply:
-        """Run a program in several worlds, and let the referee judge each."""
+        """Run a program in several worlds, and let the referee judge each run."""
         plan = self.scripts.plan(asked.script, asked.taught, asked.task)
         seeds = range(asked.seed, asked.seed + asked.worlds)
         found: list[Verdict] = []

@@ -1,6 +1,7 @@
 """Finds words and operands that handeye adds to the language of the 1970s.
 
-Words that are known only from memory are not additions, and are accepted.
+Some words are from documents that we know only from memory (`docs/sources.md`). These words are not additions, and are
+accepted.
 """
 
 from collections.abc import Iterator

@@ -134,7 +134,7 @@ _MEANINGS: Final = {
     "MATCH": "compare two pictures and check that the part has not moved; error 33 if it has",
     "REQUIRE": "read a file of instructions as if its lines were here; the path is relative to the folder of the file "
     "that contains the REQUIRE",
-    "STAGE": "begin a stage of the work; reports use this name",
+    "STAGE": "begin a stage of the work; reports call the stage by the given name",
     "DEFINE": "begin a macro, which ends at a blank line; a call of the macro gives one operand for each parameter",
 }
 _GROUPS: Final = {

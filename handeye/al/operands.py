@@ -28,7 +28,9 @@ class Mistake(Exception):
 
 
 def read_operands(definition: Instruction, head: Token, tokens: Sequence[Token]) -> tuple[Value | None, ...]:
-    """Read the value of each operand, or None for an operand that is left out. Raises Mistake."""
+    """Read the value of each operand, or None for an operand that is left out. Raises Mistake if the operands are
+    wrong.
+    """
     if definition.op in FREE_TEXT:
         return _Reader(definition, head, tokens).read()
     try:
@@ -309,7 +311,9 @@ class _Reader(msgspec.Struct, gc=False):
         raise Mistake("too-many-operands", message, span, help=help)
 
     def is_too_early(self, token: Token) -> bool:
-        """Return True if a keyword stands one operand too early, so that it was read as a name."""
+        """Return True if a token is a keyword that comes before its place among the operands, so that it was read as a
+        name.
+        """
         read = zip(self.definition.operands, self.values, strict=True)
         return token.kind is NAME and token.text.upper() in {o.word for o, v in read if v is None} - {"", NIL}
 

@@ -23,7 +23,7 @@ _BRACED: Final = re.compile(r"\{([A-Za-z_]\w*)\}", re.ASCII)  # a parameter in a
 
 class Argument(Located, frozen=True, gc=False):
     """An operand of a macro call, at the place where it is written. `call` is the scope of the names in the operand,
-    and `by` is the statement of the call.
+    and `by` is the statement that calls the macro.
     """
 
     tokens: tuple[Token, ...]
@@ -72,7 +72,7 @@ class FilledLine:
         return tuple(dict.fromkeys(given.by for given in self.given.values()))
 
     def at_source(self, values: Sequence[Value | None]) -> tuple[Value | None, ...]:
-        """Return the values, each located where it is written."""
+        """Return the values, each with the span of the text in which it is written."""
         return tuple(
             msgspec.structs.replace(value, start=given.start, end=given.end, use=value.span)
             if value is not None and (given := self.given.get(value.span)) is not None
@@ -135,8 +135,8 @@ def used(parameter: Span) -> Label:
 
 
 def uses(operand: Operand) -> tuple[Label, ...]:
-    """Make a label at the parameter that an operand replaces. Returns no label if the operand replaces no
-    parameter.
+    """Make a label for a diagnostic, at the parameter of a macro whose place the operand takes. Returns no label if
+    the operand takes the place of no parameter.
     """
     return () if operand.use is None else (used(operand.use),)
 

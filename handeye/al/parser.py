@@ -215,7 +215,7 @@ class _Parser:
         return statement if is_call else replace(statement, operands=operands)
 
     def is_open(self, statement: Statement) -> bool:
-        """Return True if a line contains a parameter of its macro."""
+        """Return True if a line contains a parameter of the macro in which the line is."""
         if not self.parameters:
             return False
         names = {token.text for token in parameters_in(statement)} | {n for n, _ in braced_in(statement)}

@@ -75,10 +75,9 @@ def begin(
             current place.
         vision: functions in place of handeye's own vision, by instruction, such as `{"SPECIFIC": my_function}`.
             Pictures are arrays of shape (256, 333) with values from 0 to 15. `view` is the calibrated camera, in the
-            position in
-            which it took the picture: `view.project(points)` and `view.back_project(uv, z)` convert between points in
-            W (m) and picture points. `part` is the drawing of the part: its planned place `at`, the height of its
-            `face`, and its `holes`.
+            position in which it took the picture: `view.project(points)` and `view.back_project(uv, z)` convert
+            between points in W (m) and picture points. `part` is the drawing of the part: its planned place `at`, the
+            height of its `face`, and its `holes`.
             `GENERAL`: (picture, view, part) returns the place (x, y) of the part's reference point in W, in m.
             `SPECIFIC`: (picture, view, part, (x, y)) returns the part's pose (x, y, yaw), in m and rad; the last
             argument is the place that `GENERAL` found. Both return None if they do not find the part.
@@ -202,7 +201,7 @@ def _rule(on_stop: object) -> Operator:
         operator = parse_policy(on_stop, ()) if isinstance(on_stop, str) else None
     if operator is None:
         raise BadArgument(
-            f"on_stop must be `abort`, `retry:N` with N of 1 or more, or `unwind`, not {on_stop!r}"
+            f"on_stop must be `abort`, `retry:N` (N is at least 1) or `unwind`, not {on_stop!r}"
         )
     return operator
 
@@ -251,7 +250,9 @@ def _built(start: Start, parts: Parts, keeping: RunEnding, halt: Callable[[], bo
             folder.close()
             folder.discard()
         if isinstance(error, Halted):
-            raise Refused("the run was halted while its cell was being prepared; nothing was begun") from None
+            raise Refused(
+                "the run was halted while its cell was being prepared, so the run did not begin"
+            ) from None
         raise
     doubts = cautions(runner, judged=keeping.judged and keeping.referee is None)
     lost = () if folder is None else losses(folder, runner)

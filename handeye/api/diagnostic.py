@@ -72,7 +72,7 @@ class ScriptError(InvalidInput):
         super().__init__("\n\n".join(map(str, self.diagnostics)))
 
     def _render_traceback_(self) -> list[str]:
-        """Return the traceback for notebooks: the errors with their places in the script, without handeye's own
-        stack frames.
+        """Return the traceback for notebooks. It shows each error with its place in the script, and no stack frames of
+        handeye.
         """
         return str(self).splitlines()

@@ -307,8 +307,8 @@ class Run:
 
     @property
     def arm(self) -> ArmModel:
-        """The model of the arm, with the link weights that the arm has measured. The model describes the arm of the
-        drawings; the arm of a world has errors that only measurements show.
+        """The model of the arm, with the link weights that the arm has measured. Apart from these weights, it
+        describes the arm of the drawings; the arm of a world has errors that only measurements show.
         """
         return self._runner.context.drive.built
 

@@ -56,8 +56,8 @@ class Trace(recorded.Trace):
     ) -> "Video":
         """Make a video of the run: an animated WebP or a WebM, depending on the ending of `path`.
 
-        The video is drawn from the recording, without simulating the run again. It needs OpenGL. Long waits for the
-        camera's mechanism are cut.
+        The video is drawn from the recording, without simulating the run again. It needs OpenGL. Each wait for the
+        camera's mechanism is cut to at most 1 s.
 
         Args:
             camera: `orbit`, which moves around the cell; `follow`, which moves close to the hand; or the name of a

@@ -1,8 +1,8 @@
 """The interface for the kinematics and dynamics that the servo computes in every period. The interface can be
 implemented with any numerical library.
 
-The planner uses the formulas of `arm.kinematics` and `arm.dynamics` directly. So does all code that computes a whole
-motion at once.
+The planner, and all other code that computes a whole motion at once, uses the formulas of `arm.kinematics` and
+`arm.dynamics` directly.
 """
 
 from abc import ABC, abstractmethod

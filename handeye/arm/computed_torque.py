@@ -70,8 +70,8 @@ class Motion:
 
 
 def prepare(arm: ArmModel, q_start: Array, samples: Samples) -> Motion:
-    """Precompute a motion that begins at rest. Because of this, the servo need not compute trigonometric functions
-    during the motion.
+    """Compute in advance what the servo needs for a motion that begins at rest. During the motion, the servo then
+    computes no trigonometric functions.
     """
     q = np.vstack([q_start, samples.q])[:-1]
     qd = np.vstack([np.zeros(len(q_start)), samples.qd])

@@ -79,8 +79,9 @@ def _dynamics(arm: ArmModel, q: Array, qd: Array | None) -> Dynamics:
 
 
 def link_weights(arm: ArmModel, q: Array) -> tuple[Array, Array]:
-    """Return two arrays of shape (..., i, j): the torque of joint j that carries the weight of link i, and the part
-    of this torque that is due to the distance between the origin of the link's frame and the link's mass centre.
+    """Return two arrays of shape (..., i, j). The first is the torque of joint j that carries the weight of link i.
+    The second is the part of this torque that is due to the distance between the origin of the link's frame and the
+    link's mass centre.
     """
     links, k = _links(arm, q), constants(arm)
     origins, _ = point_jacobian(arm, links.R, links.p, links.p[..., 1:, :])

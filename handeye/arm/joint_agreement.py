@@ -24,8 +24,8 @@ noise of both.
 """
 PATH_SHARE: Final = 0.013
 """Tolerance for the difference between the two sensors, as a fraction of the path of the joint: three standard
-deviations of the scale error of a potentiometer at the high level. The stated deviation is .22 %, and the high level
-doubles it.
+deviations of the scale error of a potentiometer in a world of the level `high`. The stated standard deviation is .22
+%, and the level `high` doubles it.
 """
 JUMP_STEPS: Final = 4.0
 """Tolerance, in converter steps, for a change of the potentiometer reading that the tachometer does not show, within
@@ -46,7 +46,8 @@ REST_STEPS: Final = 4
 """Tolerance, in converter steps, for a change of the potentiometer reading while the brakes are set and the
 tachometer reads zero.
 
-Two steps allow for the noise at the high level. The other steps allow for an arm that creeps.
+Two of these steps allow for the noise in a world whose errors have the level `high`. The other two allow for an arm
+that creeps.
 """
 
 
@@ -111,9 +112,10 @@ def scattered(arm: ArmModel, M: Array, friction: Array, rates: Array) -> Scatter
     """Find the joint whose rate readings, shape (N, n), scatter most while the arm holds still. Returns None if all
     scatter is tolerable.
 
-    The median ignores a single jerk, for example when a held part slips. A joint whose friction, shape (n,), in N m or
-    N, is less than half a step of its torque converter may swing at rest: its torque then alternates between two
-    neighbouring steps. `M` is the mass matrix, shape (n, n).
+    The scatter is the median distance of the readings from their own median, so a single jerk, for example when a held
+    part slips, has no effect. A joint whose friction, shape (n,), in N m or N, is less than half a step of its torque
+    converter may swing at rest: its torque then alternates between two neighbouring steps. `M` is the mass matrix,
+    shape (n, n).
     """
     scatter = np.median(np.abs(rates - np.median(rates, axis=0)), axis=0)
     swing = np.diag(np.linalg.inv(M)) * torque_step(arm) / 2 * arm.servo.period
@@ -169,11 +171,10 @@ class JointAgreement:
     _pairs: list[_SensorPair] = field(default_factory=list, init=False)  # empty at the start
 
     def begin_anew(self, q: Array, qd: Array) -> None:
-        """Start the comparison again from these readings. The servo starts the comparison again while a tool chatters
-        in step with the servo and shakes the arm.
+        """Start the comparison again from these readings. The servo does this while a running tool shakes the arm.
 
-        Tachometers that are read once per period then show a steady rate although the joint does not move on
-        average.
+        A tool may shake the arm with the period of the servo. Tachometers that are read once per period then show a
+        steady rate although the joint does not move on average.
         """
         self.start, self.rate, self._pairs = q, qd, []
 
@@ -228,9 +229,9 @@ def jumped(
     """Find the joint whose potentiometer moved, in a servo period, by a distance that does not agree with the rates
     before and after this period. Returns None if all agree.
 
-    A reading that jumps is detected at once, whatever the arm does. `blow` are the changes of rate that a blow on the
-    hand may have caused within the period (see `blown`). `throw` is how far an object that shifted in the fingers may
-    have moved the joints (see `thrown`). All arrays have shape (n,).
+    A reading that jumps is detected at once, whatever the arm does. `blow` gives the changes of rate that a blow on
+    the hand may have caused within the period (see `blown`). `throw` is how far an object that shifted in the fingers
+    may have moved the joints (see `thrown`). All arrays have shape (n,).
     """
     half, change = arm.servo.period / 2, np.abs(after - before)
     gone = (before + after) * half
@@ -266,7 +267,8 @@ def thrown(M: Array, work: float, period: float) -> Array:
     """Return how far each joint, shape (n,), can move within a servo period (s) if `work` (J) is done on the hand.
 
     An object that shifts in the fingers lets them close, and the work of the fingers throws the hand. The object may
-    stop the hand again within the period, so afterwards neither rate nor momentum shows the throw. At most, all work
-    becomes motion of one joint, at the beginning of the period. `M` is the mass matrix, shape (n, n).
+    stop the hand again within the period, so afterwards neither rate nor momentum shows the throw. A joint moves
+    farthest if all the work becomes motion of this joint, at the beginning of the period. `M` is the mass matrix,
+    shape (n, n).
     """
     return np.asarray(period * np.sqrt(2 * work * np.linalg.inv(M).diagonal()))

@@ -26,27 +26,27 @@ from handeye.core.pose import Array
 
 SLIDING_STEPS: Final = 4.0  # rate, in tachometer steps, at which a joint certainly slides; chosen
 LEAST_PERIODS: Final = 15
-"""Least number of servo periods of sliding for an average torque. Our choice: the rounding error of the average is a
-quarter of that of a single torque.
+"""A joint must slide for at least this number of servo periods before its torques are averaged. Our choice: the
+rounding error of the average is then a quarter of that of a single torque.
 """
 MAX_DRAG_RATIO: Final = 2.0
-"""Greatest plausible ratio of the friction of a joint to its first measurement. Half a converter step is allowed in
-addition.
+"""Greatest plausible ratio of a joint's present friction to the friction that was measured first. Half a converter
+step is allowed in addition.
 
-Measured friction is accurate to a quarter of a step plus 2 %, and so is the torque measured in a motion. At twice
-the stated errors, a joint without fault can therefore seem to have 1.08 times its friction, plus half a step. The
-rest of the ratio allows for weight that differs between the two directions. In twelve worlds, joints without fault
+Measured friction is accurate to a quarter of a step plus 2 %, and so is the torque measured in a motion. At twice the
+stated errors, the friction of a sound joint can therefore seem to have grown to 1.08 times its first value, plus half
+a step. The rest of the ratio allows for weight that differs between the two directions. In twelve worlds, sound joints
 reached a ratio of 1.4.
 """
 DAMPING_DOUBT: Final = 0.6  # of the viscous friction: its stated spread at twice its size
 WEIGHT_DOUBT: Final = 0.2
-"""Possible relative error of weight and inertia torques if a joint moved in one direction only. This value allows for
-errors of masses, mass centres and drives that are three times their spreads at the high level. The spreads at this
-level are twice the stated ones.
+"""Possible relative error of weight and inertia torques if a joint moved in one direction only. The value allows for
+masses, mass centres and drives whose errors are three times the spreads at the high level. At this level, every spread
+is twice the one that the sources state.
 """
 AT_HAND: Final = 0.15
-"""Longest lever arm (m) about the tool centre point of a force on the hand or on the object in it. Our choice: this
-lever arm reaches beyond the palm, but not to the wrist centre.
+"""Longest lever arm (m), about the tool centre point, that a force on the hand or on the held object can have. Our
+choice: this distance reaches beyond the palm, but not to the wrist centre.
 """
 ALONE: Final = 0.9  # share of the squares of all unexplained torques that one joint must have; chosen
 

@@ -67,8 +67,8 @@ def tool_jacobian(arm: ArmModel, R: Array, p: Array) -> Array:
 def centripetal(
     arm: ArmModel, R: Array, p: Array, points: Array, linear: Array, links: NDArray[np.int_], qd: Array
 ) -> tuple[Array, Array]:
-    """Compute the accelerations of points, shape (..., m, 3), and of their links at joint rates `qd` and zero joint
-    accelerations.
+    """Compute the accelerations of points, shape (..., m, 3), and of the links to which these points belong. The joint
+    rates are `qd`; the joint accelerations are zero.
 
     Point k is fixed in link `links[k]`, counted from 0; `linear`, shape (..., m, n, 3), are the velocities of the
     points per joint rate, zero for joints that do not move the link. Returns linear accelerations and angular

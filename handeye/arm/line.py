@@ -1,5 +1,5 @@
-"""Motions of the hand on lines and arcs, and motions of single joints. Joint positions and rates are solved exactly
-at every set-point.
+"""Motions of the hand on lines and arcs, and motions of single joints. At every set-point, joint positions and rates
+are computed exactly.
 """
 
 import math
@@ -24,8 +24,8 @@ def straight(
     """Plan a straight motion of the tool point with constant orientation. Returns the set-points of the motion, or the
     reason why the motion is impossible.
 
-    The motion covers `displacement` (m, in W, shape (3,)) and cruises at `speed` (m/s). A motion too short for this
-    speed stays slower.
+    The motion covers `displacement` (m, in W, shape (3,)) and cruises at `speed` (m/s). A motion that is too short to
+    reach this speed is slower.
     """
     displacement = np.asarray(displacement, dtype=np.float64)
     distance = float(np.linalg.norm(displacement))
@@ -79,8 +79,8 @@ def pivot(arm: ArmModel, q_start: Array, turn: Array, speed: float, ramp: float 
 def _profile(distance: float, speed: float, ramp: float, period: float) -> tuple[Array, Array, Array]:
     """Return the distance, speed and acceleration at ticks 1 to N of a cruise between two ramps with smooth ends.
 
-    On a ramp the speed is v (3 r2 - 2 r3), where r is the elapsed fraction of the ramp, and r2 and r3 are the square
-    and the cube of r. A ramp therefore covers half the distance that cruising covers in the same time.
+    On a ramp the speed is `speed` (3 r2 - 2 r3), where r is the elapsed fraction of the ramp, and r2 and r3 are the
+    square and the cube of r. A ramp therefore covers half the distance that cruising covers in the same time.
     """
     if distance == 0.0:
         return np.zeros(0), np.zeros(0), np.zeros(0)

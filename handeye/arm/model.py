@@ -91,7 +91,7 @@ class Joint:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ServoModel:
-    """Parameters of the servo, and the limits of the following error beyond which a motion has failed."""
+    """Parameters of the servo. If the set-point error exceeds one of its limits, the motion has failed."""
 
     period: float  # s between torque updates
     frequency: tuple[float, ...]  # of each joint's error, in rad/s, critically damped

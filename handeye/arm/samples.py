@@ -1,4 +1,4 @@
-"""Set-points of a motion, one per servo period. Checks that the set-points are within the limits of the arm."""
+"""Set-points of a motion, one per servo period, and the check that they are within the limits of the arm."""
 
 from dataclasses import dataclass
 

@@ -31,12 +31,12 @@ DAMPING: Final = 0.6  # of viscous friction
 COULOMB: Final = 0.02  # of measured friction, in addition to a quarter of a converter step
 BEARS: Final = 4.0  # least weight that a joint must carry to be checked, in multiples of its friction; chosen
 LIMIT: Final = 5.0
-"""Limit of the remainder of a joint, in multiples of its uncertainty. The uncertainty is one sigma, for errors of
-twice their stated size.
+"""Limit of the remainder of a joint, in multiples of its uncertainty. The uncertainty is one standard deviation. It is
+computed from the errors above, which are twice as large as stated.
 
 Assembling a pump takes about 350 motions. If two joints were checked in each of them, a limit of 4 would stop one
-assembly in 20 although all drives work, and a limit of 5 one in 2,500. Fewer motions are checked: only those that
-begin clear of all objects.
+assembly in 20 although all drives work, and a limit of 5 one in 2,500. In fact, the arm checks only some of these
+motions: those that begin clear of all objects.
 """
 OFF: Final = 0.4  # share of LIMIT above which further joints are reported with the worst one
 
@@ -107,8 +107,8 @@ def _model(arm: ArmModel, postures: Array) -> tuple[Array, Array]:
 
 
 def _learnt(belief: Array, H: Array, weight: Array, noise: Array, spare: Array | None = None) -> Array:
-    """Update an estimate with the joint torques beyond the model (zero by default). Each torque has a noise
-    variance.
+    """Update an estimate with the joint torques that the model does not explain (zero by default). Each torque has a
+    noise variance.
     """
     mean, spread = belief[:, 0], belief[:, 1:]
     for j, h in enumerate(H):

@@ -1,11 +1,11 @@
 """Estimates link masses from the torques that hold the arm up.
 
 Gravity torques are linear in the masses. One posture gives fewer equations than there are masses, so the most likely
-masses are computed, with standard deviations MASS_DOUBT of each mass and TORQUE_DOUBT of each torque (linear
-regression with a prior, Gauss). The gravity model is then exact at the posture of the weighing, and nearly exact
-elsewhere. In 200 worlds, the arm was weighed at the parked posture. The weighing reduced the error of the gravity
-torque on joint 2 of the Stanford arm from 1.5 to .2 N m at the parked posture, and from 1.8 to 1.3 N m over the table.
-Each figure is the limit within which 95 % of the errors lie.
+masses are computed. This is a linear regression with a prior (Gauss): MASS_DOUBT is the standard deviation of each
+mass, and TORQUE_DOUBT that of each torque. The gravity model is then exact at the posture of the weighing, and nearly
+exact elsewhere. In 200 worlds, the arm was weighed at the parked posture. The weighing reduced the error of the
+gravity torque on joint 2 of the Stanford arm from 1.5 to .2 N m at the parked posture, and from 1.8 to 1.3 N m over
+the table. Each figure is the limit within which 95 % of the errors lie.
 """
 
 from dataclasses import replace
@@ -20,8 +20,8 @@ from handeye.core.pose import Array
 
 MASS_DOUBT: Final = 0.05  # of a link's mass; chosen
 PLAUSIBLE: Final = 6 * MASS_DOUBT
-"""Plausible relative error of the weight of a link. Our choice: errors of 9 % occur in nominal worlds, and errors of
-17 % occur in worlds with twice the errors.
+"""Greatest plausible relative error of the weight of a link. Our choice, well above the errors that occur: 9 % in
+nominal worlds, and 17 % in worlds with twice the errors.
 """
 TORQUE_DOUBT: Final = 0.002  # of a drive's greatest torque: half a step of 8 bits
 

@@ -1,3 +1,3 @@
-"""The simulated cell: MuJoCo behind the device interfaces. The cell contains no task; each task composes its cell
-from these parts.
+"""The simulated cell: MuJoCo behind the device interfaces. This package contains no task; each task composes its cell
+from the parts in this package.
 """

@@ -39,8 +39,8 @@ class Watchdog:
         self.tripped = self.tripped and not braked
 
     def wait(self, seconds: float) -> None:
-        """Count the next `seconds`, in which the drives hold the last command. The watchdog trips if the counted time
-        exceeds a servo period.
+        """Add the next `seconds` to the time since the last command. During these seconds, the drives hold that
+        command. The watchdog trips if the total exceeds a servo period.
         """
         self.unanswered += seconds
         self.tripped = self.tripped or self.unanswered > self.period * (1 + _LATE)
@@ -111,9 +111,9 @@ class SimulatedArm(Mechanism[ArmState], ArmPort):
         """Make an arm at a given posture, shape (n,), in rad or m. Its brakes are set. `noise` generates the noise of
         the arm's sensors.
 
-        The lines of an arm are `potentiometer.N`, `tachometer.N`, `drive.N`, `brake.N` and `friction.N` for joint
-        N. The lines `force.x`, `force.y` and `force.z` offset the drives by the torques of a force at the hand (N,
-        in W). Torques from the computer arrive only while the line `servo` carries 1.
+        The signal lines of an arm are `potentiometer.N`, `tachometer.N`, `drive.N`, `brake.N` and `friction.N` for
+        joint N. The lines `force.x`, `force.y` and `force.z` offset the drives by the torques of a force at the hand
+        (N, in W). Torques from the computer arrive only while the line `servo` carries 1.
         """
         self.name = prefix.rstrip("/")
         names = [f"{prefix}j{number}" for number in range(1, len(arm.joints) + 1)]
@@ -187,7 +187,7 @@ class SimulatedArm(Mechanism[ArmState], ArmPort):
         self._read(q, qd, braked=self._braked)
 
     def _read(self, q: Array, qd: Array, *, braked: bool) -> None:
-        """Keep the readings, read-only, until time passes again."""
+        """Store the readings until time passes again, as arrays that cannot be changed."""
         q.setflags(write=False)
         qd.setflags(write=False)
         self._reading = ArmReading(q=q, qd=qd, braked=braked)
@@ -206,7 +206,7 @@ class SimulatedArm(Mechanism[ArmState], ArmPort):
     def check(self, state: ArmState) -> None:
         lengths = {len(state.q), len(state.qd), len(self.dofs if state.command is None else state.command)}
         if lengths != {len(self.dofs)}:
-            raise ValueError("the saved arm has a different number of joints")
+            raise ValueError("the saved arm has a different number of joints from this arm")
         finite([*state.q, *state.qd, *(state.command or ()), state.unanswered], "the arm")
         if state.unanswered < 0:
             raise ValueError("the saved watchdog waits for a time in the past")

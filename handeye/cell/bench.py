@@ -58,7 +58,8 @@ class Bench(Clock, Mechanism[BenchTime]):
         self.before_step: list[Callable[[], None]] = []  # called before every physics step
         self.after_step: list[Callable[[], None]] = []
         self.before_period: list[Callable[[], None]] = []
-        """Functions called before time passes. They are called at least every 1/60 s, except while everything sleeps.
+        """Functions called before time passes. They are called at least every 1/60 s, except while all bodies are
+        asleep.
         """
         self.after_period: list[Callable[[], None]] = []
         self.handlers: dict[str, Callable[[], None]] = {}  # handlers of events, by name
@@ -99,7 +100,7 @@ class Bench(Clock, Mechanism[BenchTime]):
         return self._steps * self._tick.numerator / self._tick.denominator
 
     def set_to_zero(self) -> None:
-        """Set the clock to 0 now, because the program begins. The time until each pending event stays the same."""
+        """Set the clock to 0, because the program begins now. The time until each pending event stays the same."""
         due = [(self._step_of(each) - self._steps) * self.tick * MICROSECONDS for each in self._due]
         self._due = [replace(was, microseconds=int(at)) for was, at in zip(self._due, due, strict=True)]
         self._steps, self.data.time = 0, 0.0

@@ -41,7 +41,7 @@ class AxesState(Record, frozen=True, kw_only=True):
     left: int  # physics steps of the period that are left
     powered: bool = True
     latched: dict[str, tuple[float, ...]]
-    """For each latched channel: the first values that were not all zero since the channel was cleared."""
+    """For each latched channel: the first values after the channel was cleared that were not all zero."""
 
 
 class BenchAxes(Axes, Mechanism[AxesState]):

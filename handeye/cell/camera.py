@@ -63,8 +63,8 @@ class SimulatedCamera(Mechanism[CameraState], TvCamera):
     ) -> None:
         """Make a camera that takes pictures of the state `data`, which the camera never changes.
 
-        `rng` generates the noise of tube and mount. The lines are `picture`, `turret` (the commanded focal length,
-        m), and `camera.pan` and `camera.tilt` (the true angles of the mount, rad).
+        `rng` generates the noise of tube and mount. The signal lines are `picture`, `turret` (the commanded focal
+        length, m), and `camera.pan` and `camera.tilt` (the true angles of the mount, rad).
         """
         self._data = data
         self._lines = lines

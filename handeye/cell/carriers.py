@@ -2,7 +2,7 @@
 
 A carrier slides along its axis and turns about it; the pitch couples the two motions. The axis is the axis of the
 tapped hole, unless a screw entered at an angle. The carrier of such a screw takes the axis of the screw, so that the
-screw does not jump when the carrier replaces it. The thread then draws the screw straight as it is turned; a
+screw does not jump when the carrier replaces it. The thread then straightens the screw as the screw turns; a
 cross-threaded screw stays at its angle. The head and shank of a carrier touch other parts only while a screw is in its
 hole, and the shank touches only the bores of gasket and top.
 """
@@ -19,8 +19,8 @@ from handeye.core.pose import Array, Pose, inverse, pose
 from handeye.core.small_arrays import span
 
 STRAIGHTENING: Final = 1.33
-"""Turn (rad) in which the lean of a screw falls to 1/e. Our choice: after a whole turn, a hundredth of the lean is
-left.
+"""Angle (rad) through which a screw turns while its lean falls to 1/e. Our choice: after a whole turn, a hundredth of
+the lean is left.
 """
 _STRAIGHT: Final = 1e-6  # in rad or m: a lean smaller than this is set to zero
 
@@ -108,7 +108,7 @@ class Carriers:
         self._move(hole, 2 * pi * turns * self._lead - self.depth(hole), 0.0)
 
     def leaning(self) -> list[int]:
-        """Return the holes whose carriers do not have the axis of the hole."""
+        """Return the holes whose carriers lean: the axis of the carrier is not the axis of the hole."""
         places, turns = self._model.body_pos[self._bodies], self._model.body_quat[self._bodies, 1:]
         off = places != self.mouths
         if not (np.count_nonzero(off) or np.count_nonzero(turns)):

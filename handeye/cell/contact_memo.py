@@ -22,7 +22,7 @@ class ContactMemo(Generic[T]):
         self._known: dict[bytes, T] = {}
 
     def now(self) -> T:
-        """Return the result for the contacts that the simulator found last."""
+        """Return the result for the contacts that the simulator found most recently."""
         geoms = self._contact.geom
         key = geoms.tobytes()
         if key not in self._known:

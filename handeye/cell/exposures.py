@@ -168,8 +168,8 @@ def fine_photograph(
     model: mujoco.MjModel, data: mujoco.MjData, *, view: str | Near, width: int, height: int, how: ExposurePlan,
     told: Progress = lambda number, of: None,
 ) -> Photograph:  # fmt: skip
-    """Take a photograph of many exposures. Raises InvalidInput if the camera or OpenGL is missing, or if the size
-    is impossible.
+    """Take a photograph that is the mean of many exposures. Raises InvalidInput if the camera or OpenGL is missing, or
+    if the size is impossible.
     """
     check_size(width, height)
     stock = FILMS[how.film]

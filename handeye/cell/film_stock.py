@@ -85,8 +85,10 @@ FILMS: Final[Mapping[str, FilmStock]] = {
 PLAIN: Final = Lighting(
     lamp=(0.68, 0.635, 0.56), gloss=0.5, sky=(0.22, 0.24, 0.27), everywhere=(0.22, 0.225, 0.235), radius=0.0
 )
-"""Lighting of a photograph of one exposure. The sky is weaker, because it casts no shadows."""
+"""Lighting of a photograph of one exposure. The sky casts no shadows in such a photograph, so it is weaker than in a
+photograph of many exposures.
+"""
 TONES: Final = np.rint(
     255 * np.clip(FILMS["colour"].developed((np.arange(256) / 255) ** GAMMA), 0, 1)
 ).astype(np.uint8)
-"""Value of a point on colour film for each of the 256 values of a point of the screen."""
+"""For each of the 256 values that a point of the screen can have: the value of this point on colour film."""

@@ -1,5 +1,5 @@
-"""A simulated hand with its lamp and its screwdriver. The hand has one motor for both fingers, a potentiometer and two
-switches.
+"""A simulated hand with its lamp and its screwdriver. The hand has a potentiometer, two switches and one motor, which
+moves both fingers.
 """
 
 from collections.abc import Sequence

@@ -14,18 +14,23 @@ LAMP: Final = "studio_lamp"
 """Numeric field of a scene that gives the place of the lamp for photographs, in W (m)."""
 CUTOFF: Final = 75.0  # half of the angle of the lamp's cone, degrees
 SHADOWED: Final = 0.5
-"""Part of the cone that casts shadows, as a fraction of its angle. A larger part would make the shadows coarser."""
+"""Part of the cone in which bodies cast shadows, as a fraction of the cone's angle. A larger part would make the
+shadows coarser.
+"""
 SKY_SHADOWED: Final = (
     1.5  # radius of the region in which the sky casts shadows, divided by the size of the scene
 )
 _FALLOFF: Final = 0.6  # exponent of the lamp's falloff towards the edge of its cone
 _STAND: Final = np.array([0.9, -0.95, 0.9])
-"""Place of the lamp in a scene that does not state it, from the middle of the scene, divided by its size."""
+"""Place of the lamp relative to the middle of the scene, as a multiple of the size of the scene. A scene can state
+another place.
+"""
 _AWAY: Final = 2.0  # distance of the sky from the middle of the scene, divided by the size of the scene
 _GRAZING: Final = 0.2  # least height of a point of the sky, divided by its distance
 _WANDER: Final = 0.07
 """How far the middle of the map of shadows moves between exposures, divided by the size of the scene. The map has
-coarse points. They fall on different places in each exposure, so the mean has smooth edges.
+coarse points. They fall on different places in each exposure, so the shadows in the mean of all exposures have smooth
+edges.
 """
 
 
@@ -47,14 +52,17 @@ class Lighting:
     everywhere: Colour  # light that throws no shadow
     radius: float  # radius of the lamp's disc, in m
     stand: Colour | None = None
-    """Place of the lamp from the middle of the scene, in sizes of the scene. None: the place that the scene states."""
+    """Position of the lamp relative to the middle of the scene, divided by the size of the scene. None: the position
+    that the scene gives.
+    """
 
     def throw(
         self, scene: mujoco.MjvScene, model: mujoco.MjModel, lamp: Array, sky: Array, wander: Array
     ) -> None:
         """Light a scene from one point of the lamp and one point of the sky. The point of the lamp is given in radii
-        of its disc, and the point of the sky as seen from above. `wander` moves the maps of shadows sideways, as a
-        fraction (-.5 to .5) of their greatest movement. Each has shape (2,).
+        of the lamp's disc. The point of the sky is given by its position as seen from above. `wander` says how far the
+        shadow maps are moved sideways, as a fraction (-.5 to .5) of their greatest movement. Each argument has shape
+        (2,).
         """
         scene.nlight = 3
         self._lamp(scene.lights[0], model, lamp, wander)

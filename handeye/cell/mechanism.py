@@ -70,4 +70,4 @@ class Mechanism(ABC, Generic[S]):
         """Restore a state that has been checked."""
 
     def release(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
-        """Undo optimisations for speed in this model or in a copy of it."""
+        """Undo, in this model or in a copy of it, the changes that only make the simulation faster."""

@@ -26,8 +26,8 @@ PLATFORMS: Final = (
     ("EGL", "mujoco.egl", ("libEGL.so.1",), ("libOpenGL.so.0", "libGL.so.1")),
     ("OSMesa", "mujoco.osmesa", ("libOSMesa.so.8", "libOSMesa.so"), ()),
 )
-"""For each platform: its name, its module, and the libraries that it needs. Each library has alternatives; one of them
-is enough.
+"""For each platform: its name, its module, and the libraries that it needs. For each library, the alternatives are
+listed; the platform needs only one of these alternatives.
 """
 SETTINGS: Final = ("EGL_", "GALLIUM_", "LIBGL_", "MESA_", "MUJOCO_EGL_", "PYOPENGL_", "__EGL_", "__GLX_")
 """Prefixes of the environment variables by which a user selects a device or a driver."""
@@ -41,9 +41,10 @@ _QUALITY: Final = {"shadowsize": 4096, "offsamples": 0, "numstacks": 2}
 
 More samples and rings would have no effect, because four fine points are averaged and the vidicon blurs the picture.
 The points of the shadow map are .7 mm wide on the table, half a point of a picture. The points of a map of 1024 points
-would be 2.8 mm wide: a pump that is pushed by .1 mm then changes whole blocks at the edges of its shadows. With this
-map, corresponding squares of two pictures differed by up to 2.6 levels. With the map of 4096 points, and with ray
-casting, the squares differed by up to 1.0 level (seed 15, 30 pictures each). The finer map adds .05 s to a picture.
+would be 2.8 mm wide: if a pump were pushed by .1 mm, whole squares at the edges of its shadows would change. With the
+map of 1024 points, corresponding squares of two pictures differed by up to 2.6 levels. With the map of 4096 points, or
+with ray casting, the squares differed by up to 1.0 level (seed 15, 30 pictures each). With the finer map, a picture
+takes .05 s longer.
 """
 
 
@@ -179,7 +180,7 @@ def context() -> tuple[str, Any]:
                 continue
             return name, gl
     if present and set_here:
-        reasons.append(f"try without {' and '.join(set_here)} in the environment")
+        reasons.append(f"run handeye again without {' and '.join(set_here)} in the environment")
     if not reasons:
         reasons.append("on Debian, install libegl1, libgl1-mesa-dri and libopengl0")
     raise Refused(

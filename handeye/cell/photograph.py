@@ -59,9 +59,9 @@ class Photographer:
         self._option.sitegroup[:] = 0
 
     def take(self, model: mujoco.MjModel, data: mujoco.MjData, view: str | Near) -> Photograph:
-        """Take a photograph of the scene, or of a copy of the scene with other groups visible. If the scene states
-        the place of a lamp for photographs, that lamp lights the photograph. Raises InvalidInput if there is no such
-        camera.
+        """Take a photograph of `model`, which is the scene, or a copy of the scene in which other groups of shapes are
+        visible. If the scene states the place of a lamp for photographs, that lamp lights the photograph. Raises
+        InvalidInput if there is no such camera.
         """
         self.aimed(model, data, view)
         if lamp_place(model) is None:
@@ -144,7 +144,7 @@ def smooth_photographs(
     """Take a smooth photograph with each camera; the scene is loaded once. Raises InvalidInput as
     `smooth_photograph` does.
 
-    Each point of a photograph is the mean of four drawn points. More samples for a drawn point would change the
+    Each point of a photograph is the mean of four rendered points. More samples for a rendered point would change the
     photograph by a tenth of a level on average, and would more than double the computing time.
     """
     check_size(width, height)

@@ -13,10 +13,10 @@ so that a part sinks as deep into the fingers as in short steps (`stiffened`). C
 long steps. If a finger that presses with 80 N lost its contact with the part in a long step, the finger would move 1.5
 mm into the part before the next step detected the contact, and would throw the part away.
 
-In middle steps all contacts and couplings are made stiffer in the same way, so a change of step changes no force at
-rest. Contacts may begin and end in middle steps, except those of the hand. The task names the *delicate* contacts,
-which need short steps, and the joints that must be at rest in middle steps. For example, a screw clamps with less
-force if it is tightened in middle steps.
+In middle steps all contacts and couplings are made stiffer in the same way, so a change of the length of the step
+changes no force at rest. All contacts except those of the hand may begin and end in middle steps. The task names the
+*delicate* contacts, which need short steps, and the joints that must be at rest in middle steps. For example, a screw
+that is tightened in middle steps clamps with less force than a screw that is tightened in short steps.
 
 If a part is crushed, for example between a fixture and a hand that runs into it, the computation may diverge in
 short steps. The same time is then computed again in fine steps.
@@ -56,7 +56,9 @@ FINER: Final = 8
 """
 _WHOLE_STATE: Final = int(mujoco.mjtState.mjSTATE_INTEGRATION)
 RESTING: Final = 1e-2
-"""Largest speed (rad/s, m/s) of a joint at rest. Our choice: a joint held by friction creeps at less than 1e-4."""
+"""A joint that moves no faster than this speed (rad/s, m/s) counts as at rest. Our choice: a joint held by friction
+creeps at less than 1e-4.
+"""
 _STIFFEST: Final = 0.9999  # MuJoCo's limit for the impedance of a constraint
 _JUDGED: Final = 1000  # sets of pairs of bodies that are remembered
 BodyPairs = frozenset[tuple[int, int]]  # numbers of bodies, the smaller first
@@ -69,9 +71,9 @@ class Carrying:
     hand: str  # the body that moves everything that is carried
     pairs: tuple[tuple[str, str], ...]  # allowed in long steps: the hand and a free body, or two free bodies
     delicate: tuple[tuple[str, ...], ...] | None = None
-    """The contacts that are not allowed in middle steps. A tuple with two bodies stands for their contact with each
-    other; a tuple with one body stands for every contact of this body. If this is None, the simulation takes no middle
-    steps.
+    """The contacts that are not allowed in steps of medium length. A tuple with two bodies stands for their contact
+    with each other; a tuple with one body stands for every contact of this body. If this is None, the simulation takes
+    no steps of medium length.
     """
     resting: tuple[str, ...] = ()  # joints that do not move during middle steps
 
@@ -124,7 +126,7 @@ class _Contacts:
     carried: bool
     """True if all pairs are allowed in long steps."""
     delicate: bool
-    """True if a pair is not allowed in middle steps."""
+    """True if at least one of the pairs is not allowed in steps of medium length."""
     held: tuple[tuple[int, int], ...]
     """The free bodies that the hand carries, each with the index of its pose among the positions of the simulator.
     Empty if `carried` is false.
@@ -227,7 +229,7 @@ class PhysicsStepper:
         )
 
     def _allowed_by(self, pairs: BodyPairs) -> _Contacts:
-        """Judge contacts by the bodies that touch. Many sets of contacts have the same bodies."""
+        """Judge contacts by the pairs of bodies that touch, because many sets of contacts have the same pairs."""
         bodies = np.array(sorted(pairs), dtype=np.intp).reshape(-1, 2)
         first, second = self._model.body_treeid[bodies].T
         carried = bool(self._carried[first, second].all())

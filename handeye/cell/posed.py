@@ -1,4 +1,6 @@
-"""A scene with its bodies at recorded poses, for pictures of a recorded run without simulation."""
+"""A scene with its bodies at recorded poses. Pictures of a recorded run are drawn from this scene, without
+simulation.
+"""
 
 import copy
 from collections.abc import Iterable, Mapping, Sequence
@@ -12,8 +14,8 @@ from handeye.cell.truth import Truth
 from handeye.core.pose import Array
 
 TURNS: Final = "turns/"
-"""Prefix of the numeric fields of the scene that give the period (s) of a body that turns in place, such as a clock
-hand.
+"""Some bodies turn in place, such as the hands of a clock. A numeric field of the scene gives the period (s) of each
+such body; this is the prefix of the field's name.
 """
 
 

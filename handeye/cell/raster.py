@@ -23,7 +23,7 @@ class Raster:
     """Shape of a raster."""
 
     pincushion: float = 0.0
-    """Inward displacement of a corner of the picture, divided by its distance from the centre."""
+    """Inward displacement of a corner of the picture, divided by the distance of this corner from the centre."""
     lines: float = 0.0
     """Bow of each line: the displacement of its middle relative to its ends, divided by half the length of the line.
     """

@@ -15,8 +15,8 @@ from handeye.vision.camera_model import View
 SKY: Final = 0.1
 """Luminance of the background, where no object is visible. Placeholder."""
 _SMOOTH: Final = 1 / 64
-"""If the luminance of neighbouring points differs by at most this value, one sample is enough. The value is a quarter
-of a grey level.
+"""If the luminance of neighbouring points differs by at most this value, one sample of each point is enough. The value
+is a quarter of a grey level.
 """
 _SAMPLES: Final = (np.indices((FINE, FINE)).reshape(2, -1).T[:, ::-1] + 0.5) / FINE - 0.5
 """Offsets (u, v) of the samples of a picture point from the middle of this point."""
@@ -67,7 +67,7 @@ class RayRenderer(SceneRenderer):
         return luminance, geom
 
     def _light(self, data: mujoco.MjData, index: int, points: Array, normals: Array) -> Array:
-        """Return the light of one lamp on surface points, shape (n,)."""
+        """Return the amount of light that surface points receive from one lamp, shape (n,)."""
         model = self._model
         source, axis = data.light_xpos[index], data.light_xdir[index]
         directional = model.light_type[index] == mujoco.mjtLightType.mjLIGHT_DIRECTIONAL

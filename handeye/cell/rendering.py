@@ -24,8 +24,8 @@ from handeye.vision.camera_model import View
 FINE: Final = 2  # samples for a picture point, along the line and across it
 LUMA: Final = np.array([0.299, 0.587, 0.114])  # weights of red, green and blue in luminance, ITU-R BT.601
 SHOWN: Final = np.array([1, 0, 1, 0, 0, 1], dtype=np.uint8)
-"""Geom groups that the camera sees: the ground, the parts, and group 5, which photographs leave out. The camera does
-not see group 1, the decorative scenery.
+"""Geom groups that the television camera sees: 0 (the ground), 2 (the parts) and 5 (plain shapes, which photographs
+replace by finer ones). The camera does not see group 1, the decorative scenery.
 """
 
 
@@ -70,7 +70,7 @@ class ReplacedCamera(SceneRenderer):
     """A picture maker supplied by the user. The picture maker gets copies of the state, so it cannot change the run."""
 
     def __init__(self, name: str, camera: CameraMaker, model: mujoco.MjModel) -> None:
-        """Make the picture maker of the user for a scene. `name` is the name of the user's code. Raises InvalidInput
+        """Make the user's own renderer for a scene. `name` is the name of the user's code. Raises InvalidInput
         if the object that `camera` returns has no method `render`.
         """
         self.identity = Renderer(method="replaced", platform=name)

@@ -27,7 +27,7 @@ def converted(value: float, step: float) -> float:
 
 
 class Converters:
-    """A row of converters, one for each number."""
+    """Converters for a row of numbers, one converter for each number of the row."""
 
     def __init__(self, steps: Array) -> None:
         """Make converters with the steps `steps`, shape (n,). A converter with a step of 0 passes numbers on
@@ -124,11 +124,11 @@ class SignalLines(Mechanism[SignalLinesState]):
 
     def check(self, state: SignalLinesState) -> None:
         if len(state.defects) != len(self.defects):
-            raise ValueError("it has different defects")
+            raise ValueError("the number of saved defects differs from the number in this cell")
         for defect, own in zip(self.defects, state.defects, strict=True):
             first, pictured = own.first or b"", defect.line == PICTURE
             if len(first) not in (0, ROWS * COLUMNS if pictured else _NUMBER):
-                raise ValueError(f"the value on the line {defect.line} has a different size")
+                raise ValueError(f"the saved value of the line {defect.line} has the wrong size")
             if pictured and max(first, default=0) > _BRIGHTEST:
                 raise ValueError("a picture was impossibly bright")
             if not pictured:

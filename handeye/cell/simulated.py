@@ -83,11 +83,11 @@ class SimulatedCell(Clock, SnapshotCell):
         return float(self._data.time)
 
     def set_to_zero(self) -> None:
-        """Set the clock to 0 now, because the program begins."""
+        """Set the clock to 0, because the program begins now."""
         self._data.time = 0.0
 
     def begin_stage(self, number: int) -> None:
-        """Begin a stage of the program, given by its number from 1. Faults may begin with a stage."""
+        """Begin the stage `number` of the program. The first stage has the number 1. Faults may begin with a stage."""
         for part in self._mechanisms:
             part.begin_stage(number)
 

@@ -28,8 +28,8 @@ class SnapshotCell:
         mechanisms: Sequence[Mechanism[Any]],
         noise: np.random.Generator,
     ) -> None:
-        """Take a scene that will not change, and mechanisms with distinct names. The mechanisms act in the given
-        order.
+        """Build a cell from a scene and mechanisms. The caller must not change the scene later. The names of the
+        mechanisms must differ. The mechanisms act in the given order.
         """
         self._model, self._data, self._noise = model, data, noise
         self._drawn = copy.deepcopy(model)
@@ -37,7 +37,7 @@ class SnapshotCell:
         names = [part.name for part in self._mechanisms]
         if len({*names}) < len(names):
             raise ValueError(
-                f"devices and mechanisms of a cell need different names; these are {', '.join(names)}"
+                f"devices and mechanisms of a cell need different names; the given names are {', '.join(names)}"
             )
         self._changes = sorted({field for part in self._mechanisms for field in part.changes})
 
@@ -109,5 +109,5 @@ class SnapshotCell:
         if not 0 <= state.time < 1e9:
             raise ValueError("the saved clock shows an impossible time")
         if set(state.mechanisms) != {part.name for part in self._mechanisms}:
-            raise ValueError("the saved state has different devices or mechanisms")
+            raise ValueError("the saved state belongs to a cell with other devices or mechanisms")
         check_noise(state.noise)

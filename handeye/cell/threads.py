@@ -50,7 +50,7 @@ STEEPEST: Final = radians(20.0)  # beyond this the tip does not bite at all. Pla
 RUNNING_TORQUE: Final = 0.02  # N m, a clean thread before the head seats. Assembly study.
 CROSSED_TORQUE: Final = 5.0  # N m: more than any driver has. Assembly study.
 BACKING_TORQUE: Final = 0.2
-"""Torque (N m) that turns a crossed screw back, less than the torque that jammed it. Placeholder."""
+"""Torque (N m) that turns a crossed screw back. It is less than the torque that jammed the screw. Placeholder."""
 THREAD_FRICTION: Final = 0.15  # steel on steel, dry. Assembly study.
 THREAD_RADIUS: Final = 0.00345  # m, mean thread radius over the cosine of the flank. Assembly study.
 STIFF: Final = (0.999, 0.9999, 0.0001)
@@ -72,8 +72,8 @@ class Thread(Record, frozen=True, kw_only=True):
     crossed: bool = False  # it has cut a thread of its own
     scarred: bool = False  # a screw has been crossed in it, now or before
     clamp: float = 0.0
-    """Force (N) of the head of the screw on the part beneath, at the last turn of the screw, smoothed over a few
-    ticks.
+    """Force (N) of the head of the screw on the part beneath, from the time when the screw was last turned, smoothed
+    over a few ticks.
     """
 
 
@@ -126,7 +126,7 @@ class Threads(Mechanism[ThreadsState]):
         figures: ThreadFigures,
         lines: SignalLines = SOUND,
     ) -> None:
-        """Start with empty holes. The line `magnet` carries a factor on the force of the bit's magnet."""
+        """Start with empty holes. The line `magnet` carries a factor that multiplies the force of the bit's magnet."""
         self._model, self._data, self._driver, self._lines = model, data, driver, lines
         self._carriers, self._figures = Carriers(model, data), figures
         if len(figures.phases) != self._carriers.count:
@@ -176,7 +176,7 @@ class Threads(Mechanism[ThreadsState]):
         self._couple(speed)
 
     def _attract(self) -> None:
-        """Apply the force of the bit's magnet if it is on."""
+        """Apply the force of the bit's magnet if the magnet is on."""
         self._data.ctrl[self._magnet] = self._lines.carried("magnet", float(self._driver.magnet))
 
     def state(self) -> ThreadsState:
@@ -323,7 +323,9 @@ class Threads(Mechanism[ThreadsState]):
         return next(filter(self._on, near), None)
 
     def _on(self, hole: int) -> bool:
-        """Return True if the bit, which is near, stands upright on the head of the screw in a hole, over the slot."""
+        """Return True if the bit stands upright on the head of the screw in a hole, over the slot. The bit must be
+        near the hole.
+        """
         data, head = self._data, self._carriers.head[hole]
         apart = data.geom_xpos[head] - data.geom_xpos[self._bit]
         aside = (apart @ data.geom_xmat[self._bit].reshape(3, 3))[:2]

@@ -99,7 +99,7 @@ def _joint(root: ET.Element, model: mujoco.MjModel, arm: ArmModel, body: int) ->
 
 
 def _drawn(arm: ArmModel, name: str) -> Joint | None:
-    """Return the joint of the arm that the model calls `j1`, `j2`, ...; None for a finger."""
+    """Return the arm joint with a given name in the model: `j1`, `j2`, and so on. Returns None for a finger."""
     return arm.joints[int(name[1:]) - 1] if name[1:].isdigit() else None
 
 

@@ -68,8 +68,8 @@ def bench_agents(
     brief: Annotated[
         Path | None,
         Parameter(
-            help="Instead of --command: a new folder for the brief and the given files; nothing is judged. If "
-            "several tasks are chosen, the new folder gets a folder for each task."
+            help="Instead of --command: write the brief and the given files to this new folder, and judge nothing. "
+            "If several tasks are chosen, the folder contains one folder for each task."
         ),
     ] = None,
     attempt: Annotated[
@@ -230,8 +230,8 @@ def _check(chosen: "list[BenchTask]", *, json: bool) -> int:
 def _scores(
     tasks: "list[BenchTask]", entrant: "Entrant | None", folder: Path, hidden: Path | None
 ) -> "list[TaskScore]":
-    """Let the entrant solve each task, then read the hidden seeds, then judge all solutions. If the file of hidden
-    seeds does not exist, BadFile is raised before the first task.
+    """Let the entrant solve each task, and then judge all solutions. The hidden seeds are read only after the last
+    task. If their file does not exist, BadFile is raised before the first task.
     """
     from handeye.agents.bench_entrant import Effort, lost, solved, verdicts
     from handeye.agents.bench_result import scored

@@ -75,8 +75,8 @@ def assembly_trials(
     cpu_limit: Annotated[
         float,
         Parameter(
-            help="CPU seconds after which a trial ends unfinished. Time in which the computer sleeps or does "
-            "other work does not count."
+            help="CPU seconds after which a trial ends unfinished. While the computer sleeps or does other work, no "
+            "time is counted."
         ),
     ] = 1800.0,
     options: SweepOptions = ANY,
@@ -85,7 +85,7 @@ def assembly_trials(
 
     The figures are the same for any number of processes. A trial whose process is killed is repeated once; an
     exception counts as a failure. Trials that ended because this computer failed are repeated when the batch
-    continues. With --out, the folder also receives figures.html, a page with the figures.
+    continues. With --out, the command also writes figures.html, a page with the figures, into the folder of the batch.
 
     Exit code 0: no silent failure; 1: no trial finished; 3: a silent failure: in some world, the program reported
         success but the referee disagreed; 2: bad input; 130: interrupted.
@@ -174,7 +174,7 @@ def dismantling_trials(
     """Assemble in many worlds, make the arm take each pump apart again, and count how often every part is back in
     place.
 
-    Trials that built nothing are listed but not counted.
+    Trials in which the program assembled nothing are listed but not counted.
 
     Exit code 0: no silent failure; 1: no trial finished; 3: a silent failure: in some world, the program reported
     everything undone but the referee disagreed; 2: bad input; 130: interrupted.
@@ -217,12 +217,12 @@ def compare_trials(
     ],
     json: Json = False,
 ) -> int:
-    """Compare batches of trials with a first batch, world by world, to see how much a sensor, or an error of the
-    world, changes the success rate.
+    """Compare one or more batches of trials with the first batch, world by world, to see how much a sensor, or an
+    error of the world, changes the success rate.
 
     All batches must be of the same kind. Each comparison counts only the trials that are in both of its batches. `p`
-    is the p-value of McNemar's exact test: the probability, if neither batch is better, that the pairs with different
-    outcomes divide at least as unequally as here.
+    is the p-value of McNemar's exact test: if neither batch is better, the probability that the pairs with different
+    outcomes divide at least as unequally as they did.
     """
     from handeye.trials.comparing import paired
     from handeye.trials.folder import read_batch

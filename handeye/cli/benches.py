@@ -58,14 +58,14 @@ def insertion(
         float | None,
         Parameter(
             help="Diametral clearance between hole and pin, mm: .05 to 1. Default: .114 if --chamfer or --sd is "
-            "given, otherwise the clearances of the grid."
+            "given, otherwise all clearances of the command's grid."
         ),
     ] = None,
     chamfer: Annotated[
         float | None,
         Parameter(
             help="Chamfer of the hole, mm: 0 (a sharp edge) to 2. Default: 1 if --clearance or --sd is given, "
-            "otherwise the chamfers of the grid."
+            "otherwise all chamfers of the command's grid."
         ),
     ] = None,
     sd: Annotated[
@@ -84,8 +84,8 @@ def insertion(
     ] = "gentle",
     options: SweepOptions = ANY,
 ) -> int:
-    """Insert one pin into one hole, many times: success rate, peak force, and time from first contact until the pin is
-    seated.
+    """Insert one pin into one hole, many times, and measure success rate, peak force, and time from first contact
+    until the pin is seated.
 
     The arm, hand and servo are the same as in the pump's cell. The plate has one hole, which is displaced along each
     axis by a normally distributed error. As with the pump, worlds differ in the errors of arm and hand. A trial begins

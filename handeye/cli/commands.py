@@ -20,7 +20,7 @@ dismantle = dismantling:dismantle: Make the arm undo the steps of a run: take th
 show = reports:show: Show the result of a run, or its progress so far, without changing the run folder.
 report = reports:report: Write one self-contained HTML page of a run, or of two: 3D replay, pictures, forces, and what happened and why.
 video = videos:video: Make a video of a recorded run, without simulating it again.
-view = views:view: Show the live cell in a browser, and step a run or teach positions there; or show a recorded run.
+view = views:view: Step a run or teach positions in a browser, which shows the live cell. Or show a recorded run.
 compare = reports:compare: Compare two runs, step by step: the first difference, and where each run searched, felt and corrected.
 do = teaching:do: Plan instructions and run them immediately, one after the other: `handeye do "OPEN 3" PARK`.
 repl = teaching:repl: Type instructions, which are checked and collected; DO runs them. HELP lists the commands.
@@ -31,20 +31,20 @@ stages = scripts:stages: List the stages of a plan and their steps, with their s
 fmt = editing:fmt: Format scripts in columns, like a listing of 1973; comments are kept.
 explain = editing:explain: Explain a diagnostic code, an error number or an instruction; without an argument, list the codes.
 docs = docs:docs: List the pages of the documentation, or print one.
-exercise = exercises:exercise: List the exercises of the course, show one, or grade a program with a verdict over all worlds, and hints.
+exercise = exercises:exercise: List the exercises of the course, show one of them, or grade a program. A grade is a verdict over all worlds, with hints.
 lsp = editing:lsp: Serve an editor over standard input and output (language server protocol).
 mcp = agents:mcp: Serve an agent (model context protocol over standard input and output): twelve tools to write and judge programs.
 export: Export a world, or the state of a run, to other programs.
 export mjcf = exports:mjcf: Write a scene that plain MuJoCo can load: scene.xml, its meshes and textures, and a README.
 export glb = exports:glb: Write the solids of a scene for programs that show or measure shapes; check that each solid is closed and has the right mass.
-export urdf = exports:urdf: Write the arm to a URDF file, as the drawing of the arm describes it, and list the joints of the arm.
+export urdf = exports:urdf: Write the arm to a URDF file, with the dimensions of its drawing, and list the joints of the arm.
 export lerobot = datasets:lerobot: Write runs as a data set for learned policies, in the format of LeRobot 3, with a data card; needs the extra `lerobot`.
 inspect = scripts:inspect: Show what a plan does: stages, steps, times, guards, forces, and what each step depends on.
 diff = scripts:diff: Compare what two plans do, step by step.
 schema = scripts:schema: Print the JSON schema of the plan format.
 trace: Read the traces of runs.
 trace show = traces:show: Show what happened in a run, and why.
-trace stats = traces:stats: Count and time what happened in a run, stage by stage.
+trace stats = traces:stats: Count what happened in a run, stage by stage, and show how long it took.
 trace photograph = traces:photograph: Photograph the cell at a moment of a recorded run, without simulating it again.
 trace verify = traces:verify: Repeat a recorded run and compare the two.
 trace thin = exports:thin: Shrink a trace to about a tenth of its size, for sharing; the smaller trace keeps the motion that is needed to show the run.
@@ -58,22 +58,22 @@ faults = fault_matrix:faults: Assemble once with each fault of a standard set, a
 trials: Repeat a task in many worlds and count successes.
 trials assembly = batches:assembly_trials: Assemble in many worlds, to learn the success rate with its confidence interval, and what failed where.
 trials dismantling = batches:dismantling_trials: Assemble in many worlds, make the arm take each pump apart again, and count how often every part is back in place.
-trials disturbed = trials:disturbed_trials: Disturb a finished pump without telling the program, then take it apart: does a guard stop the arm before the arm does damage?
-trials compare = batches:compare_trials: Compare batches of trials with a first batch, world by world, to see how much a sensor, or an error of the world, changes the success rate.
+trials disturbed = trials:disturbed_trials: Disturb a finished pump without telling the program, then take the pump apart: does a guard stop the arm before the arm does damage?
+trials compare = batches:compare_trials: Compare one or more batches of trials with the first batch, world by world, to see how much a sensor, or an error of the world, changes the success rate.
 trials base = trials:base_vision_trials: Find the base of the pump on the belt, at many poses: how often it is found, how accurately, and how often in the wrong place.
 trials gasket = trials:gasket_vision_trials: Inspect gaskets by camera: in place, shifted by .3 in, absent, and one on top of another.
 trials chaos = trials:chaos_trials: Chaos test: random faults, crashes, interruptions and operator answers; each failure is reduced to one command that repeats it.
-trials mutants = mutants:mutant_trials: Make mutants of a program, each with one check taken away or weakened: does the proof refuse the mutant, or does another check catch the faults for which the changed check was meant?
+trials mutants = mutants:mutant_trials: Make mutants of a program, each with one check taken away or weakened. Does the proof refuse each mutant? If not, does another check catch the faults for which the changed check was meant?
 trials record = datasets:record: Record runs in many worlds, each with its trace in a folder of its own: for data sets and reports.
 trials rare = rare:rare_trials: Estimate how rarely a program stops, and how rarely it fails silently, by subset simulation.
-trials worst = rare:worst_trials: Find the nearest worlds in which a program fails, and the quantities that push it to fail.
+trials worst = rare:worst_trials: Find the failing worlds whose errors are smallest, and the quantities that make the program fail.
 env: Gymnasium environments of the cell, for learned policies; need the extra `env` (gymnasium).
 env list = environments:environments: List the Gymnasium environments: their ids, jobs and time limits.
 env evaluate = environments:evaluate: Evaluate a policy: success rate and false-done rate with their confidence intervals, steps of the work reached, peak force and time.
 bench: Benchmarks: stage times, inserting a pin into a hole, and programs that agents write.
 bench timing = benches:timing: Assemble once and print the times of the stages next to those of 1973.
 bench agents = agents:bench_agents: Score programs that agents write, in worlds that the agents have not seen; silent failures count twice.
-bench insertion = benches:insertion: Insert one pin into one hole, many times: success rate, peak force, and time from first contact until the pin is seated.
+bench insertion = benches:insertion: Insert one pin into one hole, many times, and measure success rate, peak force, and time from first contact until the pin is seated.
 """  # noqa: E501 - a command a line
 """Commands as lines `NAME = MODULE:FUNCTION: SENTENCE`. Lists of commands show the sentence, which is the first
 sentence of the command's docstring; a group of commands has no function. The modules are in this folder.
@@ -82,8 +82,8 @@ sentence of the command's docstring; a group of commands has no function. The mo
 
 class _Command(CommandSpec):
     def resolve(self, parent_app: App) -> App:
-        """Import the command. The docstring of the command is its help; the sentence in the table is for lists of
-        commands, which do not import the command.
+        """Import the command. The docstring of the command is its help. A list of commands shows the sentence in the
+        table instead, so it does not have to import the commands.
         """
         self.help = None
         restore_docstring(loaded(self.import_path, "the command at "))

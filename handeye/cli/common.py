@@ -127,7 +127,9 @@ NoKeep = Annotated[
     ),
 ]
 CALLED: Final = os.environ.get("HANDEYE_CALLED", "handeye")
-"""The name under which handeye was called, for sentences that suggest a command; run.py sets it."""
+"""The name by which the user called handeye. Sentences that suggest a command begin the command with this name.
+`run.py` sets the environment variable.
+"""
 
 
 class _Screen(Console):
@@ -158,15 +160,15 @@ def say(text: str, to: Console = screen, *, style: str | None = None, whole: boo
 
 
 def put(answer: bytes) -> None:
-    """Write an answer for another program, or the content of a file, in UTF-8, whatever the encoding of the
-    terminal.
+    """Write an answer for another program, or the content of a file. The encoding is UTF-8, even if the terminal has a
+    different encoding.
     """
     sys.stdout.buffer.write(answer)
     sys.stdout.flush()
 
 
 def put_line(text: str) -> None:
-    """Write one line of an answer for a program."""
+    """Write one line of the JSON answers that another program reads."""
     put(f"{text}\n".encode())
 
 

@@ -14,7 +14,7 @@ Shell = Literal["bash", "zsh", "fish"]
 
 SHELLS: Final[dict[str, Shell]] = {"bash": "bash", "zsh": "zsh", "fish": "fish"}
 START_UP: Final[dict[Shell, str]] = {"bash": ".bashrc", "zsh": ".zshrc"}
-"""The file in the home folder that loads completions when a shell starts; fish needs none."""
+"""For each shell, the file in the home folder that loads completions when the shell starts; fish needs no such file."""
 CONDITION: Final[dict[Shell, str]] = {"zsh": ", if its .zshrc calls compinit"}
 
 

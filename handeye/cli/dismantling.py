@@ -70,7 +70,9 @@ def dismantle(
 
 
 def _newest(path: Path) -> "Checkpoint":
-    """The checkpoint in a file, or the final state of the run in a folder; raises InvalidInput if there is none."""
+    """The checkpoint in a file, or the final state of the run in a folder. Raises InvalidInput if the path holds
+    neither.
+    """
     from handeye.runs.checkpoint_file import read_checkpoint
     from handeye.runs.folder import EVENTS, open_again
     from handeye.runs.undo_orders import caught_up, done_since

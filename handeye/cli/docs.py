@@ -1,4 +1,4 @@
-"""The command that lists and prints the pages of the documentation, which every installation includes."""
+"""The command that lists and prints the pages of the documentation. Every installation includes these pages."""
 
 from pathlib import Path
 from textwrap import fill

@@ -38,14 +38,15 @@ def exercise(
     first_seed: Annotated[
         WholeNumber | None,
         Parameter(
-            help="Try your program in other worlds: as many as the exercise has, but with seeds that begin with "
-            "this one. Default: the worlds of the exercise."
+            help="Try your program in other worlds, as many as the exercise has. --first-seed gives the seed of the "
+            "first of these worlds; each further world has the next seed. Default: the worlds of the exercise."
         ),
     ] = None,
     jobs: Annotated[WholeNumber, Parameter(help="Number of processes that work at the same time.")] = 2,
     json: Json = False,
 ) -> int:
-    """List the exercises of the course, show one, or grade a program with a verdict over all worlds, and hints.
+    """List the exercises of the course, show one of them, or grade a program. A grade is a verdict over all worlds,
+    with hints.
 
     ```
     handeye exercise
@@ -119,7 +120,9 @@ def _describe(chosen: "Exercise", *, json: bool) -> int:
 
 
 def _begin(chosen: "Exercise", *, overwrite: bool, json: bool) -> int:
-    """Write the program from which a student starts. Nothing is written if one of the files already exists."""
+    """Write the program from which a student starts, and its taught positions, if any. Nothing is written if the file
+    of the program or of the positions already exists, unless `overwrite` is True.
+    """
     program = Path(chosen.start)
     files = {program: chosen.program.text}
     if chosen.positions is not None:
@@ -165,7 +168,9 @@ def _grade(chosen: "Exercise", file: Path, seed: int | None, jobs: int, *, json:
 
 
 def _elsewhere(chosen: "Exercise", first: int) -> "Exercise":
-    """Return the exercise with other worlds."""
+    """Return the exercise in worlds whose seeds begin with `first`. Raises BadArgument if the exercise has no worlds,
+    or if a seed is not valid.
+    """
     from handeye.core.variation import checked_seed
 
     if not chosen.seeds:

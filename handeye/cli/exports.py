@@ -75,7 +75,7 @@ def urdf(
     overwrite: Overwrite = False,
     json: Json = False,
 ) -> int:
-    """Write the arm to a URDF file, as the drawing of the arm describes it, and list the joints of the arm.
+    """Write the arm to a URDF file, with the dimensions of its drawing, and list the joints of the arm.
 
     Exit code 0: written; 2: bad input.
     """
@@ -92,7 +92,7 @@ def _told(written: "Export", *, json: bool) -> int:
 
 def _exhibit(run: Path | None, world: WorldOptions) -> "ExportedState":
     """The state to export. Notes are printed about everything that the export leaves out. Raises InvalidInput if there
-    is no such run.
+    is no run in `run`.
     """
     from handeye.runs.exported_state import initial_state, kept_state
 

@@ -51,9 +51,9 @@ def faults(
     checkpoints: Annotated[
         Path | None,
         Parameter(
-            help="Folder that keeps, for each world, one run without faults; a missing run is made first. A run "
-            "with a fault that begins at a later stage then starts from a checkpoint of the run without faults. By "
-            "default, each fault is tried in a whole run. The outcomes are the same either way."
+            help="Folder that keeps, for each world, one run without faults; a missing run is made first. If a "
+            "fault begins at a later stage, its run starts there, from a checkpoint of the run without faults. "
+            "Default: each fault is tried in a whole run. The outcomes are the same with and without this folder."
         ),
     ] = None,
     world: WorldOptions = ANY_WORLD,
@@ -140,7 +140,7 @@ def _own_trials(task: str) -> str:
 
 
 def _sound(setup: Setup, folder: Path, seeds: Sequence[int], jobs: int) -> None:
-    """Execute the fault-free runs that a folder lacks."""
+    """Execute the fault-free runs that are not yet in the folder."""
     from handeye.trials.sound_run import sound_runs
 
     worlds = [msgspec.structs.replace(setup.world, seed=seed) for seed in seeds]

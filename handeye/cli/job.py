@@ -192,7 +192,7 @@ class _Work:
         return runner
 
     def _halted(self) -> bool:
-        """True if the panic button was pressed, here or in the browser."""
+        """True if the panic button was pressed, at this terminal or in the browser."""
         return self.panic() or (self.job.server is not None and self.job.server.link.panic())
 
     def _observers(self, runner: Runner) -> list[Observer]:

@@ -143,7 +143,7 @@ def carry_out_job_trials(
 
 
 def _check_video(video: Path, out: Path | None, *, overwrite: bool) -> None:
-    """Raise InvalidInput before the run if the video could not be written after the run."""
+    """Raise InvalidInput, before the run begins, if it would be impossible to write the video."""
     from handeye.cell.opengl import context
     from handeye.core.files import check_place
     from handeye.video.formats import format_of

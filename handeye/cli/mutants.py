@@ -37,16 +37,16 @@ def mutant_trials(
     checkpoints: Annotated[
         Path | None,
         Parameter(
-            help="Folder of the fault-free run that the runs start from; created if missing, and kept afterwards. "
-            "Needed unless --most is 0."
+            help="Folder of the fault-free run. The runs of the mutants start from the checkpoints in this folder. "
+            "The command creates the folder if it is missing, and keeps it. Needed unless --most is 0."
         ),
     ] = None,
     world: WorldOptions = ANY_WORLD,
     camera: Camera = "auto",
     options: SweepOptions = ANY,
 ) -> int:
-    """Make mutants of a program, each with one check taken away or weakened: does the proof refuse the mutant, or does
-    another check catch the faults for which the changed check was meant?
+    """Make mutants of a program, each with one check taken away or weakened. Does the proof refuse each mutant? If
+    not, does another check catch the faults for which the changed check was meant?
 
     If `handeye check --prove` accepts a mutant, the mutant runs from the beginning of its stage, once with each fault
     for which the changed check is meant. The mutant is `caught` if it stops, `silent` if it reports success with wrong
@@ -87,7 +87,7 @@ def mutant_trials(
 
 
 def _chosen(made: "list[Mutant]", only: list[str] | None) -> "list[Mutant]":
-    """The mutants whose names contain at least one text of `only`; all mutants if `only` has no text."""
+    """The mutants whose names contain at least one text of `only`; all mutants if `only` is None or empty."""
     for text in only or ():
         if not any(text in each.name for each in made):
             raise NoSuchName(f"no mutant has {quoted(text)} in its name; --list lists the mutants")

@@ -26,7 +26,7 @@ class LinePrinter(Observer):
 
 
 def shown_without_errors(found: list[Diagnostic], source: Source) -> bool:
-    """Print the mistakes of a program. Returns True if there are no errors."""
+    """Print the errors and warnings of a program. Returns True if there are no errors."""
     show(found, source, json=False)
     return not has_errors(found)
 
@@ -76,7 +76,7 @@ class Session(Protocol):
         """True if the user has left."""
 
     def hear(self, line: str) -> None:
-        """Execute a line. Raises InvalidInput."""
+        """Execute a line. Raises InvalidInput if the line cannot be executed."""
 
     def words(self) -> Iterable[str]:
         """Return the words offered as completions."""

@@ -18,8 +18,8 @@ _LEAVE_OUT: Final = "leave out --task, or give the right task"
 
 
 def compiled(file: Path, work: "Task | None" = None) -> Plan:
-    """The plan of a script for a task, by default the script's own task; prints diagnostics and exits if there is
-    no plan.
+    """The plan of a script for a task, by default the script's own task. Prints the diagnostics of the script. If the
+    script has no plan, the command exits.
     """
     made = plan_script(file, work=work)
     show(made.diagnostics, made.source, json=False)
@@ -50,8 +50,8 @@ def script_at(given: Path, task_words: str | None) -> "tuple[Path, Task]":
 
 
 def plan_at(given: Path, task_words: str | None = None) -> Plan:
-    """The plan of a file or of a program. If `given` is a file, the file contains the plan, or a script that is
-    compiled. If there is no such file, `given` is the name of the program.
+    """The plan of a file or of a program. If `given` is a file, the file contains either a plan or a script; a script
+    is compiled. If there is no such file, `given` is the name of a program.
 
     Raises:
         InvalidInput: there is no such plan for the task.
@@ -77,13 +77,15 @@ def plan_or_own(given: Path | None, task_words: str | None) -> Plan:
 
 
 def is_program(given: Path) -> bool:
-    """True if a name is that of a program, False if it is that of a file; raises NoSuchName if it is neither."""
+    """Return True if `given` is the name of a program, and False if it is the path of a file. Raises NoSuchName if no
+    program and no file has this name.
+    """
     return not given.is_file() and _program(given) is not None
 
 
 def _program(given: Path) -> "tuple[Path, Task] | None":
-    """The program with the given name; None if the text is a path. Raises NoSuchName if the text can only be a name,
-    and no program has this name.
+    """Return the program that has the name `given`, or None if `given` is a path. Raises NoSuchName if `given` can
+    only be a name, and no program has this name.
     """
     if not _is_name(given):
         return None
@@ -97,7 +99,9 @@ def _program(given: Path) -> "tuple[Path, Task] | None":
 
 
 def _note_file(given: Path) -> None:
-    """Print a note that the file is used, if there is also a program with the same name."""
+    """If there is also a program with the name of the file, print a note that the file is used instead of this
+    program.
+    """
     if _is_name(given) and given.is_file() and program_named(given.name) is not None:
         note(f"{given}: using this file, not the program of the same name")
 

@@ -71,7 +71,7 @@ class PipedLines:
         Thread(target=self._read, args=(file,), daemon=True).start()
 
     def wait(self, aside: Callable[[], AbstractContextManager[None]]) -> Iterator[str]:
-        """Yield each line that has not been taken. While no line has arrived, the context `aside` is open."""
+        """Yield each line that `come` has not taken. While no line has arrived, the context `aside` is open."""
         while True:
             with aside():
                 line = self._lines.get()
@@ -80,7 +80,7 @@ class PipedLines:
             yield line
 
     def come(self) -> str | None:
-        """Take a waiting line; None if there is none."""
+        """Take a waiting line. Returns None if no line is waiting."""
         try:
             line = self._lines.get_nowait()
         except Empty:

@@ -1,4 +1,4 @@
-"""`handeye check --prove`: proves that a program ends only if its steps have shown that the work is right."""
+"""`handeye check --prove`: proves that the steps on every path to the end of a program show that the work is right."""
 
 from dataclasses import dataclass
 from pathlib import Path

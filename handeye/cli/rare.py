@@ -50,7 +50,8 @@ class SampleOptions:
     levels: Annotated[
         WholeNumber,
         Parameter(
-            help="Greatest number of levels. Each level reaches worlds that are about ten times rarer."
+            help="Greatest number of levels. Each level reaches worlds that are about ten times rarer than those of "
+            "the level before."
         ),
     ] = 6
     failure: Annotated[
@@ -77,7 +78,7 @@ class SampleOptions:
         Parameter(
             name=["--out", "-o"],
             help="Folder of the search. Each run is saved as it ends, so that the same command continues an "
-            "interrupted search; the worlds in which the program fails are saved in its folder `worlds`.",
+            "interrupted search; the worlds in which the program fails are saved in its subfolder `worlds`.",
         ),
     ] = None
     overwrite: Annotated[bool, Parameter(help="Discard the runs in the folder given by --out.")] = False
@@ -99,13 +100,15 @@ class SampleOptions:
         if self.scheduler is not None and self.engine != "dask":
             raise BadArgument("--scheduler needs --engine dask")
         if checked_seed(self.seed) > LARGEST_SEED - self.n:
-            raise BadArgument(f"--seed {self.seed} leaves fewer than {self.n} seeds")
+            raise BadArgument(
+                f"there are fewer than {self.n} seeds from --seed {self.seed} to the largest seed, {LARGEST_SEED}"
+            )
         if self.out is not None and self.out.suffix.lower() in (".html", ".csv", ".json"):
             raise BadArgument(f"--out {self.out} looks like a file; a search needs a folder")
 
     @contextmanager
     def campaign(self, page: str) -> "Iterator[_Search]":
-        """Begin or continue a search; while the search continues, its runs are counted on standard error."""
+        """Begin or continue a search. While the search runs, standard error shows the number of its runs."""
         from handeye.trials.folder import BatchFolder, head_of
         from handeye.trials.rare.campaign import Campaign, forget_worlds
         from handeye.trials.rare.page import PAGE
@@ -208,10 +211,10 @@ ANY_SAMPLE: Final = SampleOptions()
 def rare_trials(*, options: SampleOptions = ANY_SAMPLE) -> int:
     """Estimate how rarely a program stops, and how rarely it fails silently, by subset simulation.
 
-    The worlds of the first level are made from seeds. Each further level is a sample of the worlds in which the
-    program comes closer to failing; about a tenth of the previous level's worlds are that close. The product of the
-    shares of all levels estimates the probability of the failure; the product is not a bound. Only a run in a world
-    decides whether the program fails there.
+    The worlds of the first level are made from seeds. In a tenth of the worlds of each level, the program comes
+    closest to failing. The next level is a sample of worlds in which the program comes at least as close to failing as
+    in this tenth. The product of the shares of all levels estimates the probability of the failure; the product is not
+    a bound. Only a run in a world decides whether the program fails there.
 
     Exit code 0: no silent failure; 3: in some world, the program reported success but the referee disagreed; 2: bad
     input; 130: interrupted.
@@ -244,18 +247,23 @@ def worst_trials(
     *,
     nearest: Annotated[
         WholeNumber,
-        Parameter(help="Number of failing worlds from which the search for nearer failing worlds starts."),
+        Parameter(
+            help=(
+                "Number of searches for failing worlds that are nearer still. Each search starts from one of the "
+                "nearest failing worlds found so far."
+            )
+        ),
     ] = 5,
     rounds: Annotated[
         WholeNumber, Parameter(help="Greatest number of runs in the search from one failing world.")
     ] = 24,
     options: SampleOptions = ANY_SAMPLE,
 ) -> int:
-    """Find the nearest worlds in which a program fails, and the quantities that push it to fail.
+    """Find the failing worlds whose errors are smallest, and the quantities that make the program fail.
 
-    The levels are those of `trials rare`. This command can therefore continue a folder that `trials rare` wrote. In
-    each of the nearest failing worlds, the command then returns the quantities to the middle of their ranges, except
-    those whose deviation is needed for the failure.
+    The levels are those of `trials rare`, so this command can continue the work in a folder that `trials rare` wrote.
+    In each of the nearest failing worlds, the command then returns the quantities to the middle of their ranges,
+    except those whose deviation is needed for the failure.
 
     Exit code 0: no silent failure; 3: in some world, the program reported success but the referee disagreed; 2: bad
     input; 130: interrupted.

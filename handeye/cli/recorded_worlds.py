@@ -53,12 +53,13 @@ def _events(path: Path) -> tuple[AnyEvent, ...]:
 
 
 def _check_drawing(path: Path, begun: RunStarted) -> None:
-    """Raises InvalidInput if this version generates another world from the seed of the run."""
+    """Raises InvalidInput if the seed of the run gives a different world in this version."""
     world = begun.world
     if world.drawing != DRAWING:
         raise Refused(
             f"the world of {path} comes from another version of handeye: seed {world.seed} gives a different world "
-            f"here (rules that generate worlds: version {world.drawing} there, version {DRAWING} here)"
+            f"here (the rules that generate worlds have version {world.drawing} in that version of handeye, and "
+            f"version {DRAWING} in this one)"
         )
 
 

@@ -89,7 +89,7 @@ def write_report(run: Path, place: Path, *, overwrite: bool) -> None:
 
 
 def page_of(run: Path) -> bytes:
-    """The page of the run in a folder or a trace; raises InvalidInput if there is none."""
+    """The page of the run in a folder or a trace. Raises InvalidInput if the folder or file contains no run."""
     from handeye.core.entries import entry_named
     from handeye.report.animation import animation
     from handeye.report.page.document import account_page, report_page
@@ -108,7 +108,7 @@ def page_of(run: Path) -> bytes:
 
 
 def read_recorded(run: Path) -> "RecordedRun":
-    """The run in a folder or a trace, as far as it can be read; raises InvalidInput if there is none."""
+    """Read the run in a folder or a trace, as far as it is readable. Raises InvalidInput if there is no run."""
     from handeye.results.recorded_run import recorded_run
     from handeye.trace.reading import is_cut_short, read_trace
 
@@ -228,7 +228,7 @@ def _way_on(folder: Path, result: "Result") -> str:
 
 
 def shown(folder: Path, *, json: bool, details: bool = True) -> "KeptRun":
-    """Print the result or progress of the run in a folder; raises InvalidInput if there is none to show."""
+    """Print the result or the progress of the run in a folder. Raises InvalidInput if the folder has neither."""
     from handeye.results.kept_run import kept_run
     from handeye.results.page import page, short_page
     from handeye.results.result import to_json

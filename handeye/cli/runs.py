@@ -79,7 +79,7 @@ def assemble(
     no_keep: NoKeep = False,
     camera: Camera = "auto",
     report: Annotated[
-        bool, Parameter(help="Also write report.html, a page of the run, in the folder.")
+        bool, Parameter(help="Also write report.html, a page about the run, into the folder of the run.")
     ] = False,
     calibrate: Calibrate = False,
     on_stop: OnStop = None,
@@ -182,8 +182,8 @@ def run(
 ) -> int:
     """Run a plan, or some of its stages, in the work cell of its task: straight through or step by step.
 
-    Give a stage by its number, its name, or part of its name. A later stage starts from its checkpoint. If this
-    checkpoint is missing, the earlier stages run first.
+    Give a stage by its number, its name, or part of its name. A run that does not begin with the first stage starts
+    from a checkpoint. If this checkpoint is missing, the earlier stages run first.
 
     Exit code 0: the program finished, or paused where asked; 1: the program stopped and called the operator; 3: the
     program reported success, but the referee (if it judges the run) disagrees; 2: bad input, or a piped --step command
@@ -269,7 +269,8 @@ def resume(
 
     If the run has ended, the command shows its result and changes nothing; with `--step` you can go back in the run.
 
-    The folder of a run resumes from its newest valid checkpoint. The exit codes are those of `handeye run`.
+    If PATH is the folder of a run, the run continues from the newest valid checkpoint in the folder. The exit codes
+    are those of `handeye run`.
     """
     from handeye.cli.job import Job, work
     from handeye.cli.reports import shown

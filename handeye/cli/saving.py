@@ -33,7 +33,9 @@ class OptionalRecord(Observer):
     """Saves a run for which the user named no folder. If the disk is full, the run continues without being saved."""
 
     def __init__(self, saving: Callable[[], AbstractContextManager[Observer]]) -> None:
-        """`saving` gives the folder. If the folder cannot be written, `saving` removes the folder."""
+        """`saving` returns a context that yields the folder. If the folder cannot be written, the context removes the
+        folder.
+        """
         self._saving = saving
 
     def event(self, event: AnyEvent) -> None:

@@ -54,14 +54,14 @@ def check(
         ),
     ] = False,
     watch: Annotated[
-        bool, Parameter(help="Keep checking whenever the script, a required file or the taught file changes.")
+        bool, Parameter(help="Check again whenever the script, a required file or the taught file changes.")
     ] = False,
     prove: Annotated[
         bool,
         Parameter(
             group=PROOF,
-            help="Also prove, for each finding of the task's referee: if the finding did not hold, the program "
-            "would notice it on every path to its end. FILE may also be a plan.",
+            help="Also prove, for each finding of the task's referee, that the program would notice if the finding "
+            "did not hold, whatever path the program takes to its end. FILE may also be a plan.",
         ),
     ] = False,
     proof: ProofOptions | None = None,

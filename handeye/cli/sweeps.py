@@ -62,7 +62,7 @@ class SweepOptions:
         return None if self.out is None or self.out.suffix.lower() in (".html", ROWS) else self.out
 
     def check(self) -> None:
-        """Raises InvalidInput if the results could not be written after the trials."""
+        """Raises InvalidInput, before the trials begin, if it would be impossible to write their results."""
         from handeye.trace.tables import check_tables
         from handeye.trials.page import PAGE
         from handeye.trials.tables import ROWS as TABLE

@@ -34,8 +34,8 @@ def run_or_newest(given: Path | None) -> Path:
 
 
 def two_runs(a: Path | None, b: Path | None) -> tuple[Path, Path]:
-    """Two runs to compare. If only one run is given, the newest run is the second. If no run is given, the two newest
-    runs are compared.
+    """Two runs to compare. A single given run is compared with the newest run. If no run is given, the two newest runs
+    are compared.
     """
     from handeye.runs.unnamed_runs import newest_runs
 

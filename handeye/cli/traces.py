@@ -53,7 +53,7 @@ def show(
 
 
 def stats(run: RunOrEvents = None, /, *, json: Json = False) -> int:
-    """Count and time what happened in a run, stage by stage."""
+    """Count what happened in a run, stage by stage, and show how long it took."""
     from handeye.trace.stats import statistics, statistics_table
 
     trace, events = _read(run_or_newest(run))
@@ -149,7 +149,7 @@ def verify(run: RunOrTrace = None, /, *, task: TaskWords = None) -> int:
 
 
 def _read(file: Path) -> tuple["Trace | None", list["AnyEvent"]]:
-    """The trace in a file or folder, and the events that were not undone."""
+    """The trace in a file or folder, and those of its events that were not undone."""
     from handeye.trace.eventlist import effective, read_events
     from handeye.trace.reading import read_trace
 

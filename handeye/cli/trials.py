@@ -137,11 +137,11 @@ def disturbed_trials(
     camera: Camera = "auto",
     options: SweepOptions = ANY,
 ) -> int:
-    """Disturb a finished pump without telling the program, then take it apart: does a guard stop the arm before the
-    arm does damage?
+    """Disturb a finished pump without telling the program, then take the pump apart: does a guard stop the arm before
+    the arm does damage?
 
-    The stop is in time if, up to the stop, no part outside the hand moved by more than 2 mm in one step, and the
-    hand felt at most 60 N. Each trial first builds the pump; the building takes one CPU minute.
+    A stop is in time if, before it, no part outside the hand moved by more than 2 mm in one step, and the hand felt at
+    most 60 N. Each trial first builds the pump, which takes one CPU minute.
 
     Exit code 0: every trial was stopped in time; 3: a trial was not stopped in time; 2: bad input; 130: interrupted.
     """
@@ -210,8 +210,8 @@ def chaos_trials(
     """Chaos test: random faults, crashes, interruptions and operator answers; each failure is reduced to one
     command that repeats it.
 
-    A schedule is one test. It starts somewhere in a fault-free run and continues for a few steps, or to the end of
-    the stage. It has up to two faults, and up to two interruptions: the panic button, a pause, going back, or a
+    A schedule is one test. It starts from a random step of a fault-free run, and continues for a few steps, or to the
+    end of the stage. It has up to two faults, and up to two interruptions: the panic button, a pause, going back, or a
     killed process. After each interruption, the run resumes from disk. A simulated operator answers each call: it
     retries, skips, proceeds or aborts. The same schedule then runs again without its interruptions.
 
@@ -220,8 +220,8 @@ def chaos_trials(
     and says what happened (`trace`); nothing is lost on disk (`disk`); and no exception is raised (`error`). If a
     schedule fails, the trial shortens the schedule step by step, as long as the shorter schedule still fails. The
     trial then prints the shortest failing schedule as a command. If a fault spoiled a part of the pump only after the
-    program's last look at this part, the schedule is `unseen` instead of silent. First, one complete run is made in
-    each world. A complete run takes one CPU minute, and a schedule takes some seconds.
+    program's last look at this part, the schedule is `unseen` instead of silent. Before the schedules, the command
+    makes one complete run in each world. A complete run takes one CPU minute, and a schedule takes some seconds.
 
     Exit code 0: all checks passed; 3: a check failed; 2: bad input; 130: interrupted.
     """
@@ -264,7 +264,7 @@ def _folder(named: Path | None) -> Iterator[Path]:
 
 
 def _own_setup(words: str | None, camera: str) -> Setup:
-    """A run of a task by its own plan. The world is chosen later."""
+    """The set-up of a run that uses the task's own plan. The world is chosen later."""
     work = any_task(DEFAULT) if words is None else named(words)
     if isinstance(work, Task):
         return Setup(plan=plan_or_own(None, words), world=WorldSpec(seed=0), camera=camera)

@@ -1,4 +1,4 @@
-"""One sentence for each kind of mistake in a command line, from the data of the parser."""
+"""Makes one sentence of each mistake in a command line, from what the parser reports."""
 
 from collections.abc import Iterable
 from typing import Final, Literal, get_args, get_origin
@@ -63,7 +63,7 @@ def _fault(error: CycloptsError, command: str) -> str:
 
 
 def _options(error: CycloptsError) -> set[str]:
-    """The options of the command concerned."""
+    """The options of the command in which the mistake is."""
     if error.app is None or error.app.default_command is None:
         return set()
     return {name for each in error.app.assemble_argument_collection() for name in each.names}

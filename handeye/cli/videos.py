@@ -61,9 +61,9 @@ def video(
 ) -> int:
     """Make a video of a recorded run, without simulating it again.
 
-    The video is an animated WebP (for a README), a WebM or an MP4; browsers play all three. Long waits for the
-    camera's mechanism are cut. Short stages play slower, so that each can be seen; with --speed, all stages play at
-    that speed.
+    The video is an animated WebP (for a README), a WebM or an MP4; browsers play all three. Each wait for the camera's
+    mechanism is cut to at most 1 s. Short stages play slower, so that each can be seen; with --speed, all stages play
+    at that speed.
 
     ```
     handeye video pump

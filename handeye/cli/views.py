@@ -33,7 +33,10 @@ def view(
     demo: Annotated[
         bool,
         Parameter(
-            negative="", help="Insert a pin into a hole, in real time; this program takes no pictures."
+            negative="",
+            help=(
+                "Run a program of handeye's own, in real time: it inserts a pin into a hole, and takes no pictures."
+            ),
         ),
     ] = False,
     teach: Annotated[
@@ -50,7 +53,7 @@ def view(
     out: Out = None,
     overwrite: Overwrite = False,
 ) -> int:
-    """Show the live cell in a browser, and step a run or teach positions there; or show a recorded run.
+    """Step a run or teach positions in a browser, which shows the live cell. Or show a recorded run.
 
     Prints the address to open, which contains a secret and works on this computer only. Several pages can show the
     run, but only one page controls the run; the other pages neither change nor slow the run. The exit codes are those

@@ -1,4 +1,4 @@
-"""Options that choose a world, the same on every command that builds one."""
+"""Options that choose a world. Every command that builds a world has these options."""
 
 from collections.abc import Set
 from dataclasses import dataclass, replace
@@ -40,7 +40,7 @@ Faults = Annotated[
 @Parameter(name="*", group=WORLD)
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ErrorOptions:
-    """The task of the world, its errors, and their sizes."""
+    """The task of a world, which errors the world has, and how large they are."""
 
     task: TaskWords = None
     level: Annotated[
@@ -82,7 +82,9 @@ class ErrorOptions:
         return any_task(DEFAULT) if self.task is None else named(self.task)
 
     def of(self, name: str) -> Self:
-        """The same options for the task that a plan or run records. The method imports no task module."""
+        """These options, with the task that a plan or run records instead of their own. The method imports no task
+        module.
+        """
         return replace(self, task=any_task(name).name)
 
     def spec(self, seed: int) -> WorldSpec:
@@ -106,14 +108,14 @@ class ErrorOptions:
 
     def check(self, seed: int) -> None:
         """Check seed, level, values and factors, before the program is planned. The names after --without are not
-        checked here, because they can be macros of the program. Raises InvalidInput.
+        checked here, because they can be macros of the program. Raises InvalidInput if an option is wrong.
         """
         replace(self, without=None).spec(seed)
 
     def apart(self, calls: Set[str]) -> "tuple[ErrorOptions, tuple[str, ...]]":
         """Split the names in `--without`. The first value is a copy of these options whose `--without` keeps only the
-        errors of the world. The second value contains the senses and macros that the program must do without; no name
-        occurs twice in it.
+        errors of the world. The second value names the senses and macros that the program must do without, each name
+        once.
         """
         names = [name.upper() if name.upper() in calls else name for name in self._names()]
         spared = [*SENSES, *sorted(calls)]
@@ -170,7 +172,7 @@ class WorldOptions:
 
     @property
     def task(self) -> str | None:
-        """The task given as an option, or else the task of the file; None if both were left out."""
+        """The task given as an option, or else the task in the file of the world; None if neither was given."""
         if self.errors.task is None and self.file is not None:
             return read_world(self.file).task
         return self.errors.task
@@ -186,7 +188,7 @@ class WorldOptions:
         return replace(self, errors=replace(self.errors, task=None)) != ANY_WORLD
 
     def of(self, name: str) -> Self:
-        """The same options for the task called `name`."""
+        """These options, with the task called `name` instead of their own."""
         return replace(self, errors=self.errors.of(name))
 
     @property
@@ -199,7 +201,9 @@ class WorldOptions:
         return msgspec.structs.replace(self.spec, seed=checked_seed(seed))
 
     def check(self) -> None:
-        """Check the options, except --without, before the program is planned. Raises InvalidInput."""
+        """Check the options, except --without, before the program is planned. Raises InvalidInput if an option is
+        wrong.
+        """
         if self.file is None:
             self.errors.check(self.seed or 0)
         else:
@@ -241,7 +245,8 @@ class WorldOptions:
 def broken(
     world: WorldSpec, options: list[str] | None, work: "AnyTask", listing: "Listing | None" = None
 ) -> WorldSpec:
-    """A world of a task with faults; raises InvalidInput if there is no such fault, value or stage.
+    """Add the faults that `options` names to a world. Raises InvalidInput if a named fault, value or stage does not
+    exist.
 
     Args:
         listing: the program's stages, at which faults may begin. If this is None, faults cannot begin at stages.

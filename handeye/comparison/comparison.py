@@ -115,8 +115,8 @@ class Comparison(Brief):
     measures: Measures  # display units
     conditions: tuple[Condition, ...]
     thinned: bool
-    """True if either trace is thinned. A thinned trace holds only some of the servo periods of its run. The sensor
-    values of servo periods are then not compared.
+    """True if either trace is thinned, that is, holds only some of the servo periods of its run. If a trace is
+    thinned, the sensor values of servo periods are not compared.
     """
     first: First | None
     parted: Divergence | None

@@ -25,7 +25,7 @@ class Correction(Record, frozen=True, kw_only=True):
 
 
 class Corrections(Record, frozen=True, kw_only=True):
-    """The same correction in two runs. None stands for a run that did not make the correction."""
+    """The same correction in two runs. For a run that did not make the correction, the value is None."""
 
     a: Correction | None
     b: Correction | None

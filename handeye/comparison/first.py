@@ -32,7 +32,9 @@ from handeye.trace.trace import Trace
 OF_A_PERIOD: Final = (JOINTS, HAND, MACHINES, FRAMES)
 """Channels that are recorded in every servo period."""
 _SAID_TWICE: Final = (LOG, SCENE)
-"""Channels that only repeat other channels: sentences of events, and the appearance of bodies."""
+"""Channels that only repeat what other channels contain. `LOG` contains a sentence for each event, and `SCENE`
+contains the appearance of the bodies.
+"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -148,8 +150,8 @@ class First:
     period: int | None = None  # servo period of the step, counted from 1; None outside servo periods
     differing: QuantityDifference
     next: tuple[AnyEvent | None, AnyEvent | None] = (None, None)
-    """The next event of each run, if these events differ. None for a run that ended, or for a run whose step
-    continued.
+    """The next event of each run, if the runs first differ in their events. None for a run that has ended, or whose
+    step continues with a servo period.
     """
 
     @property

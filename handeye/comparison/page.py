@@ -126,7 +126,7 @@ _USUAL: Final = 4
 
 
 def view(way: Course, lacking: str, opening: float = 0.0) -> Iterator[Markup]:
-    """Yield both views with their controls. If there are no animations, yield the reason, `lacking`."""
+    """Yield the views of both runs, with controls. If there are no animations, also yield the reason, `lacking`."""
     if lacking:
         yield element("p", f"There is no 3D view: {lacking}", class_="missing")
     yield element("div", *(_side(letter, name) for letter, name in SIDES), class_="sides")

@@ -21,7 +21,7 @@ class DecidingEvent:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Divergence:
-    """The first event, in each run, at which the courses of the runs differ. None stands for a run that ended."""
+    """The first event, in each run, at which the courses of the runs differ. If a run has ended, its event is None."""
 
     a: DecidingEvent | None  # next event of the first run; None if the run has ended
     b: DecidingEvent | None  # next event of the second run, likewise

@@ -190,8 +190,8 @@ def _corrected(found: Sequence[Corrections]) -> Iterator[str]:
 
 
 def _counted(what: str, alike: str, found: Sequence[Searches | Stops | Corrections]) -> Iterator[str]:
-    """Yield a line that says how many findings both runs have, and how many of these findings are alike. Yields
-    nothing if there are no findings.
+    """Yield a line with the number of findings that occur in both runs, and the number of these findings that are
+    alike. Yields nothing if there are no findings.
     """
     both = [each for each in found if each.a is not None and each.b is not None]
     if found:

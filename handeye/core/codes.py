@@ -105,7 +105,7 @@ CODES: Final[dict[str, Code]] = {
     "line-too-long": _error("a line is too long", f"OPEN 1\n;{'-' * 1000}"),
     "load-beyond-arm": _planning("a load is heavier than the arm can hold", "LOAD 900\nMOVE T"),
     "macro-ends-early": _warning(
-        "a macro ends with a modifier, and the blank line after it separates the modifier from its motion",
+        "a macro ends with a modifier, and the blank line that ends the macro separates the modifier from its motion",
         "DEFINE DOWN\nSTOP 50\n\nCHANGE Z -1\n\nMOVE T\nDOWN\nPARK",
     ),
     "macro-name-taken": _error("a macro has the name of an instruction", "DEFINE OPEN\nPARK\n\nPARK"),
@@ -170,7 +170,9 @@ CODES: Final[dict[str, Code]] = {
         "REQUIRE pins.al\nREQUIRE pins.al",
         {"pins.al": "PARK"},
     ),
-    "restore-without-move": _error("a RESTORE does not follow a MOVE", "SAVE H\nOPEN 1\nRESTORE H"),
+    "restore-without-move": _error(
+        ("a RESTORE has no goal to shift, because no MOVE is directly before it"), "SAVE H\nOPEN 1\nRESTORE H"
+    ),
     "save-without-move": _warning(
         "a SAVE has no MOVE before it on any path through the program", "CLOSE\nSAVE H"
     ),
@@ -206,7 +208,8 @@ CODES: Final[dict[str, Code]] = {
         "warning",
     ),
     "test-of-no-effect": _warning(
-        "a test skips only another test, so what follows does not depend on the error of the first test",
+        "a test skips only another test, so the instructions after the second test do not depend on the error of "
+        "the first test",
         "L: CLOSE .1 .2\nSKIPE 2\nSKIPE 7\nJUMP L\nPARK",
     ),
     "test-without-action": _warning("a test does not directly follow an action", "SKIPE 23\nPARK"),

@@ -167,7 +167,7 @@ def names_sentence(names: SimilarName | KnownNames | None) -> str | None:
 
 
 def nearest(name: str, known: Iterable[str], farthest: int) -> str | None:
-    """Find a known name that looks the same as `name`. If there is none, find the known name at the least edit
+    """Find a known name that looks the same as `name`. If there is no such name, find the known name at the least edit
     distance from `name`. Returns None if that distance is greater than `farthest`.
     """
     choices = sorted(set(known))
@@ -186,7 +186,7 @@ def _too_many(name: str, choices: Sequence[str]) -> bool:
 
 
 def _distance(a: str, b: str, farthest: int) -> int:
-    """Return the edit distance of two words. Swapping two neighbouring characters counts as one edit
+    """Return the edit distance between two words. Swapping two neighbouring characters counts as one edit
     (Damerau-Levenshtein). A distance greater than `farthest` may be returned as any number greater than `farthest`.
     """
     if abs(len(a) - len(b)) > farthest:

@@ -72,8 +72,8 @@ class Entry(Record, frozen=True, kw_only=True):
     machines: dict[str, str] = field(default_factory=dict)  # `module:NAME` of an `ArmMachine`, by name
     sweeps: dict[str, str] = field(default_factory=dict)  # `module:NAME` of a `Sweep`, by kind
     faults: str = ""
-    """`module:NAME` of a function that takes a task's name and a world. It returns the kind of sweep, and the work
-    that `handeye faults` does for each fault. Empty if the system has no such trials.
+    """`module:NAME` of a function that takes a task's name and a world. The function returns the kind of the sweep,
+    and the work that `handeye faults` does for each fault. Empty if the system has no such trials.
     """
     programs: str = ""
     """`module:NAME` of a function that returns the plan with which a program does a task. The function takes the name
@@ -92,7 +92,9 @@ class Entry(Record, frozen=True, kw_only=True):
         ""  # `module:NAME` of the `handeye.runs.legs.LegSystem` of a system that can do a leg of a relay
     )
     environments: dict[str, str] = field(default_factory=dict)
-    """The Gymnasium environments of the system: for the id of each, the `module:NAME` of its `handeye.env.jobs.Job`."""
+    """The Gymnasium environments of the system. The key is the id of an environment, and the value is the
+    `module:NAME` of its `handeye.env.jobs.Job`.
+    """
     exercises: tuple[str, ...] = ()  # `module:NAME` of each `Exercise` for students
     files: tuple[str, ...] = ()  # files that its finished runs add to their folders
 

@@ -56,7 +56,7 @@ class Taken(CannotWrite):
 
 
 class Refused(InvalidInput):
-    """Raised for a valid request that this machine, system or state cannot execute."""
+    """Raised for a valid request that this machine or system cannot execute, or cannot execute in its present state."""
 
 
 class PhysicsFailed(HandeyeError):
@@ -139,7 +139,7 @@ from 50 on usually mean a faulty sensor or drive.
 
 
 class MissingExtra(Refused):
-    """Raised when a package that an extra of handeye installs is missing."""
+    """Raised when a package is missing that one of handeye's extras would install."""
 
     def __init__(self, command: str, package: str, extra: str) -> None:
         super().__init__(

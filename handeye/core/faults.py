@@ -45,7 +45,7 @@ class ExpectedDetection:
 
     errors: tuple[int, ...] = ()  # errors that identify it
     calls: tuple[str, ...] = ()
-    """Messages to the operator that identify the fault. In a message, `{...}` stands for any name or number of a
+    """Messages to the operator that identify the fault. In a message, `{...}` stands for the name or the number of any
     part.
     """
     at_setup: bool = False  # measuring the arm or calibrating the camera fails
@@ -58,8 +58,8 @@ class ExpectedDetection:
 
 
 def is_call(call: str, message: str) -> bool:
-    """Return True if a message to the operator matches the pattern `call`, in which `{...}` stands for any name or
-    number of a part.
+    """Return True if a message to the operator matches the pattern `call`, in which `{...}` stands for the name or the
+    number of any part.
     """
     return re.fullmatch(".+".join(map(re.escape, re.split(r"\{[^}]*\}", call))), message) is not None
 
@@ -69,8 +69,8 @@ UNKNOWN: Final = ExpectedDetection()  # no expectation stated
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SpoiledWork:
-    """Finished work that a fault spoils by itself, without a motion of the arm. If this happens after the program's
-    last step that senses this work, the program cannot notice the fault.
+    """Finished work that a fault spoils even if the arm does not move. If the fault spoils the work after the
+    program's last step that senses this work, the program cannot notice the fault.
     """
 
     findings: tuple[str, ...]  # beginnings of the names of the referee's findings on this work
@@ -88,8 +88,8 @@ class FaultKind:
     meaning: str  # a sentence: what is broken, and what the program gets instead
     size: Size | None = None  # None if the fault has no size
     when: Literal["before", "during", "later"] = "during"
-    """`before` if the fault can only be present in the world from the start; `during` if it can also begin at a
-    stage; `later` if it can also begin after a time.
+    """`before` if the fault can only be present from the start of the run. `during` if the fault can be present from
+    the start or begin at a stage. `later` if the fault can be present from the start or begin after a time.
     """
     usual_stage: int | None = None  # stage at which the fault begins by default, from 1; None for the start
     expected: ExpectedDetection = UNKNOWN
@@ -202,8 +202,8 @@ class Catalogue:
 
 
 def _begun(fault: Fault) -> str:
-    """Write when a fault begins, in the form in which users type it. The text is empty if the fault is present from
-    the start.
+    """Return the beginning of a fault in the form in which users type it, such as `@30s`. The text is empty if the
+    fault is present from the start.
     """
     if fault.after is not None:
         return f"@{fault.after:g}s"

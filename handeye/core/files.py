@@ -73,7 +73,7 @@ def read_whole(path: str | Path, largest: int = LARGEST) -> bytes:
 
 
 def beside(path: Path, ending: str) -> Path:
-    """Return the path with another ending. Raises CannotWrite if the path is a directory."""
+    """Return the path with its ending replaced by `ending`. Raises CannotWrite if the path is a directory."""
     if not path.name:
         raise CannotWrite(f"{path} is a directory, not a file")
     return path.with_suffix(ending)
@@ -186,13 +186,15 @@ class LineFile:
     """A file to which whole lines are appended, by one writer at a time."""
 
     def __init__(self, path: Path, writer: str, *, again: bool = True) -> None:
-        """Open a file to append lines. An incomplete last line is cut off; with `again=False` a new file is
-        started. Raises CannotWrite if another process has the file open; `writer` names that process in the
-        error message.
+        """Open a file to append lines. An incomplete last line is cut off. If `again` is False, a new file is started
+        instead. Raises CannotWrite if another process has the file open; `writer` names that process in the error
+        message.
         """
         self.path = path
         self.unlocked = ""
-        """Why other processes cannot be kept from writing to the file; empty if the file is locked."""
+        """Reason why the file could not be locked; empty if the file is locked. Other processes can write to an
+        unlocked file.
+        """
         if path.exists() and not path.is_file():  # opening a pipe without a reader would wait for ever
             raise CannotWrite(f"{path} cannot be written: it is not a file")
         try:

@@ -51,7 +51,9 @@ def joined(pieces: Iterable[str], between: str = "") -> Markup:
 
 
 def lines(rows: Iterable[str]) -> Markup:
-    """Build a text whose lines stay as they are. The keyboard reaches it, because it scrolls in a narrow window."""
+    """Build a text whose lines stay as they are. The text can be reached with the keyboard, because it scrolls in a
+    narrow window.
+    """
     return element("pre", joined(rows, Markup("\n")), tabindex="0")
 
 

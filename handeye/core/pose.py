@@ -93,7 +93,7 @@ def hand_angles(X_WT: Pose) -> tuple[float, float, float]:
 
 
 def translated(X: Pose, p: Array | Sequence[float]) -> Pose:
-    """Move the pose `X` by `p` (m), given in the outer frame."""
+    """Move the pose `X_AB` by `p` (m), a displacement in frame A."""
     Y = X.copy()
     Y[:3, 3] += p
     return Y

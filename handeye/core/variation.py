@@ -60,7 +60,7 @@ class Quantity:
     limits: tuple[float, float] = (-np.inf, np.inf)  # range it can be set to
     where: tuple[str, float] | None = None
     """The choice on which the quantity depends: name and value (SI). Only worlds in which the choice has this value
-    have the quantity; None if all worlds have it.
+    have the quantity. If `where` is None, all worlds have the quantity.
     """
     source: str  # meaning, and source of its figures
     unsourced: str = ""
@@ -169,7 +169,9 @@ class Variation:
         return frozenset(".".join(part[:n]) for part in parts for n in range(1, len(part)))
 
     def present(self, values: Mapping[str, float]) -> dict[str, Quantity]:
-        """Return the quantities, by name, of a world in which choices have the given values (SI)."""
+        """Return the quantities, by name, that exist in a world with these `values` (SI). Some quantities exist only
+        if another quantity, a choice, has a certain value.
+        """
         return {name: q for name, q in self.quantities.items() if self._is_there(q, values)}
 
     def _is_there(self, quantity: Quantity, values: Mapping[str, float]) -> bool:
@@ -202,7 +204,9 @@ class Variation:
         return tuple(there)
 
     def draw(self, spec: WorldSpec) -> World:
-        """Generate the world of a specification. Raises BadArgument if the specification does not fit this table."""
+        """Generate the world of a specification. Raises BadArgument if the specification names a quantity that does
+        not exist, or gives a quantity a value that it cannot have.
+        """
         self.check(spec)
         there = self.present(spec.overrides.set)
         return World(spec=spec, values={name: self.value(name, spec) for name in there})
@@ -231,11 +235,11 @@ class Variation:
         found = tuple(q for q in those if q.distribution.is_error and (name != UNSOURCED or q.unsourced))
         if not found:
             what = "no unsourced error" if name == UNSOURCED else f"no error in {quoted(name)}"
-            raise BadArgument(f"the world has {what} to scale")
+            raise BadArgument(f"a scale cannot apply: the world has {what}")
         return found
 
     def check(self, spec: WorldSpec) -> None:
-        """Raise BadArgument unless a world can be generated from this table."""
+        """Raise BadArgument if these quantities do not allow the world of a specification."""
         if spec.level not in SPREADS:
             raise NoSuchName(f"there is no level {spec.level!r}; the levels are {', '.join(SPREADS)}")
         if spec.drawing != DRAWING:

@@ -94,8 +94,8 @@ def frames_of(trace: Trace) -> Frames:
 
 
 def _windows(times: Array, moments: Array) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Return the last reading and the first reading of each frame. A frame without a reading keeps the last reading
-    before it.
+    """Return the indices of the last and of the first reading of each frame. A frame without a reading keeps the last
+    reading before it.
     """
     end = np.searchsorted(times, moments + CLOCKS)
     begin = np.concatenate([[0], end[:-1]])

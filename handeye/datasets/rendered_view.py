@@ -19,11 +19,11 @@ _FINER: Final = 2  # drawn points per point of the view along a side
 
 
 def rendered_view(trace: Trace, camera: str, times: Array) -> Iterator[Photograph]:
-    """Yield the view at each of some moments (s, ascending), shape (240, 320, 3), without shadows. A moment before or
-    after the recording shows its first or its last state.
+    """Yield the view at each of some moments (s, ascending), shape (240, 320, 3), without shadows. A moment before the
+    recording shows the first recorded state, and a moment after the recording shows the last one.
 
-    A view is drawn only when a body has moved. Otherwise, the view before is repeated, so a clock on the wall shows
-    the time of the last motion.
+        A view is drawn only when a body has moved. Otherwise, the previous view is repeated, so a clock on the wall
+    shows the time of the last motion.
 
     Raises:
         InvalidInput: the scene has no such camera, or OpenGL cannot be used.

@@ -25,7 +25,7 @@ def breakpoint(text: str, listing: Listing) -> AnyStop:
     """Return the breakpoint that a text names. Raises InvalidInput if there is no such place, or if no step can
     raise that error.
 
-    The text names an error, such as `error:23`, a label, or a stage (by its name or a part of the name). A line of the
+    The text names an error (`error:23`), a label, or a stage (by its name or a part of the name). A line of the
     source, such as `12` or `pins.al:3`, means the first step on the line or after it. An instruction word means every
     step that begins with that word.
     """
@@ -35,8 +35,8 @@ def breakpoint(text: str, listing: Listing) -> AnyStop:
     if error := _ERROR.fullmatch(text):
         if not listing.errors:
             raise Refused(
-                "no step of this program raises an error, so there is no error for a breakpoint; the run pauses "
-                "whenever the program stops"
+                "no step of this program raises an error, so no breakpoint can wait for an error; even without a "
+                "breakpoint, the run pauses if the program calls the operator"
             )
         return _on_error(error["number"] or error["any"], listing)
     place = named_place(text, listing)
@@ -53,14 +53,14 @@ def breakpoint(text: str, listing: Listing) -> AnyStop:
 
 def stage_number(text: str, listing: Listing) -> int:
     """Return the index of a stage. The user gives the stage's number (counted from 1), its name, or a part of the
-    name that no other stage's name contains. Raises InvalidInput.
+    name that no other stage's name contains. Raises InvalidInput if there is no such stage.
     """
     return stage_index(text, listing.stages)
 
 
 def step_number(text: str, listing: Listing) -> int:
-    """Return the index of a step. The user gives the step's number in the plan, or a label that no other step
-    has. Raises InvalidInput.
+    """Return the index of a step. The user gives the step's number in the plan, or a label that no other step has.
+    Raises InvalidInput if there is no such step.
     """
     text, steps = text.strip(), listing.steps
     if _NUMBER.fullmatch(text):
@@ -150,7 +150,7 @@ def is_ahead(stop: AnyStop, start: Checkpoint) -> bool:
 
 
 def _steps(stop: AnyStop, listing: Listing) -> frozenset[int] | None:
-    """Return the steps before which a condition stops the run, or None if the condition is not a place."""
+    """Return the steps before which a condition stops the run, or None if the condition names no step and no stage."""
     match stop:
         case AtSteps():
             return frozenset(stop.steps)

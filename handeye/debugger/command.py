@@ -44,7 +44,7 @@ def check_bare(named: Iterable[Command[Any]], rest: str) -> None:
 
 
 def rows(commands: Iterable[Command[Any]]) -> list[str]:
-    """Return the commands as lines of help. The commands of a group stand together."""
+    """Return the commands as lines of help. The commands of a group follow one another."""
     table = list(commands)
     width = max(len(command.shown) for command in table)
     lines: list[str] = []

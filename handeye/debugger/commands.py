@@ -1,6 +1,6 @@
 """The functions that execute the stepper's commands on a session. Each function gets the text after the command word.
 
-The table of commands describes each command.
+`command_table.COMMANDS` describes each command.
 """
 
 import math
@@ -257,7 +257,9 @@ def _set(runner: Runner, text: str) -> None:
         known = " or ".join(f"`set {name} {each.usage}`" for name, each in settables.items())
         raise BadArgument(f"write {known}" if known else "this run has no values to set")
     if runner.trouble is not None:
-        raise Refused("no value can be set where the run has stopped; first go back with `back`")
+        raise Refused(
+            "no value can be set, because the run cannot continue from here; first go back with `back`"
+        )
     name, numbers = _read(rest, settable, kind.casefold())
     values = tuple(number * unit for number, unit in zip(numbers, settable.units, strict=False))
     runner.experiment(kind.casefold(), name, values + settable.present(name)[len(values) :])

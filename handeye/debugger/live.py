@@ -34,8 +34,8 @@ class Pace(Observer):
     clock: Callable[[], float] = time.monotonic
     sleep: Callable[[float], None] = time.sleep
     _kept: tuple[float, float, float] | None = field(default=None, init=False)
-    """The factor that limits the pace, and the wall-clock time and cell time (s) at which the factor began to limit
-    the pace.
+    """The factor that limits the pace, and the moment (s) at which it began to do so, on two clocks: first wall-clock
+    time, then cell time.
     """
 
     def __str__(self) -> str:
@@ -63,7 +63,9 @@ class Pace(Observer):
 
 
 def factor(text: str) -> float | None:
-    """Parse a pace, such as `1x`, `4x`, `.5x` or `free`. Returns None for `free`. Raises InvalidInput."""
+    """Parse a pace, such as `1x`, `4x`, `.5x` or `free`. Returns None for `free`. Raises InvalidInput if the text is
+    not a pace.
+    """
     if text.casefold() == FREE:
         return None
     number = re.fullmatch(r"([0-9]{1,3}(?:\.[0-9]{1,6})?|\.[0-9]{1,6})x?", text.casefold())

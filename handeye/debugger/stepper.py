@@ -1,4 +1,4 @@
-"""The interactive stepper, which executes commands, returns each reply as a record, and prints the replies."""
+"""The interactive stepper, which executes commands. It returns the reply to each command as a record, and prints it."""
 
 from collections.abc import Callable, Iterator, Sequence
 from functools import partial

@@ -16,8 +16,8 @@ from handeye.runs.runner import Runner
 
 
 def show(runner: Runner, what: str = "", pictures: Path | None = None) -> RunViews:
-    """Return the views for the topics in `what`. The names of topics may be abbreviated. If `what` is empty, all topics
-    except `positions` are shown. Raises InvalidInput.
+    """Return the views for the topics in `what`. The names of topics may be abbreviated. If `what` is empty, all
+    topics except `positions` are shown. Raises InvalidInput if a topic is unknown.
 
     The last picture is written to the folder `pictures`, if one is given.
     """

@@ -58,7 +58,9 @@ class Document:
 
     @cached_property
     def required_names(self) -> list[tuple[Source, Occurrence]]:
-        """Occurrences of names in required texts, each with its text. Spans are offsets in that text."""
+        """Occurrences of names in the required texts. Each occurrence comes with the text that contains it, and its
+        span is in offsets within this text.
+        """
         parts = self.taught.parts
         return [(text, o) for text in self.whole.required for o in occurrences(text.text, parts, self.macros)]
 

@@ -34,8 +34,9 @@ _MAX_FILES = 2  # of the files that an example requires: at most this many are s
 
 
 def explanation(word: str) -> str:
-    """Return the explanation of a code, error number or instruction. Raises NoSuchName, which suggests the
-    nearest name."""
+    """Return the explanation of a code, error number or instruction. Raises NoSuchName if there is no such word; its
+    message suggests the nearest name.
+    """
     if word in CODES:
         return _code(word)
     if word.upper() in EXPLAINED:
@@ -108,8 +109,8 @@ def _shortened(lines: list[str], most: int = 16) -> list[str]:
 
 @cache
 def example(code: str) -> tuple[Source, Diagnostic | None]:
-    """Return the example of a code, and the diagnostic that the example causes. In place of the diagnostic, return
-    None if the example alone does not cause such a diagnostic.
+    """Return the example of a code, and the diagnostic that the example causes. The second value is None if the
+    example alone causes no diagnostic with this code.
     """
     source = sewn_of(Source(name="example.al", text=CODES[code].example), CODES[code].required)
     program, found = compile_text(source, SAMPLE)
@@ -182,7 +183,7 @@ REMEDIES: Final[dict[int, Remedy]] = {
     ),
     errors.WRONG_HEIGHT: Remedy(
         "HEIGHT compares the heights of two touches at one place, so the error of the arm cancels. If the check "
-        "fails, a layer is missing, or the layer is the wrong one.",
+        "fails, a layer is missing, or a wrong layer is in its place.",
         "OPEN 0\nMOVE T\nSTOP [0 0 -40]\nCHANGE [0 0 -1] .7 .5\nSAVE BARE\nPARK\nMOVE T\nSTOP [0 0 -40]\n"
         'CHANGE [0 0 -1] .7 .5\nHEIGHT BARE .04 .08\nSKIPN 9 ;one gasket thick\nWAIT "SEE TO THE GASKET"\nPARK',
     ),
@@ -208,8 +209,8 @@ REMEDIES: Final[dict[int, Remedy]] = {
         'LOOK V\nGENERAL BASE V\nLOOK W\nSPECIFIC BASE W\nSKIPN 31 ;its holes are found\nWAIT "TURN THE BASE"\nMOVE P',
     ),
     errors.GASKET_WRONG: Remedy(
-        "The pictures before and after the gasket was placed do not show the change that a gasket in its place "
-        "makes. Place the gasket again, or ask the operator.",
+        "A correctly placed gasket makes a certain difference between the picture before and the picture after it "
+        "was placed; these two pictures do not differ in that way. Place the gasket again, or ask the operator.",
         "LOOK BEFORE HOLD\nMOVE P\nLOOK AFTER HOLD\nINSPECT BASE BEFORE AFTER\nSKIPN 32 ;it is on properly\n"
         'WAIT "CHECK THE GASKET"\nPARK',
     ),
@@ -222,7 +223,7 @@ REMEDIES: Final[dict[int, Remedy]] = {
     errors.SWITCH_WRONG: Remedy(
         "A switch that is closed while its finger touches nothing is stuck. If a switch stays open while the "
         "fingers press on a part, either the switch is stuck or the motor of the fingers is weak. The reports of "
-        "such a switch are worthless. Either do not test for the error, or test for it and call the operator with "
+        "such a switch are worthless. Either do not test for this error, or test for it and call the operator with "
         "a WAIT.",
         'OPEN 1\nSKIPN 50 ;both switches are open\nWAIT "SEE TO THE FINGER SWITCHES"\nMOVE P\nCLOSE .1',
     ),

@@ -66,7 +66,7 @@ def operand_of(line: Line, diagnostic: Diagnostic) -> tuple[Operand | None, Toke
 
 
 def with_blanks_before(document: Document, span: Span) -> Span:
-    """Extend a span to the blanks before it."""
+    """Extend a span so that it includes the blanks before it."""
     start = span.start
     while start and document.text[start - 1] in " \t":
         start -= 1

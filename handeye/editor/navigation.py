@@ -35,8 +35,8 @@ class Edit(Place):
 
 
 def definition(document: Document, offset: int) -> list[Place]:
-    """Return the definitions of the name at an offset. A difference is defined by each of its SAVEs. A required file
-    is defined at its start.
+    """Return the definitions of the name at an offset. A difference is defined by each of its SAVEs. The definition of
+    a required file is the start of that file.
     """
     for file in required_by(document.text):
         key = key_of(file.text, own_key(document.source))
@@ -68,7 +68,9 @@ def renamable(document: Document, offset: int) -> Occurrence:
 
 
 def rename(document: Document, offset: int, new: str) -> list[Edit]:
-    """Return edits in all files that rename the name at an offset. Raises BadArgument if the new name is invalid."""
+    """Return the edits that give a new name to the name at an offset, in all files. Raises BadArgument if the new name
+    is invalid.
+    """
     name = renamable(document, offset)
     if _NAME.fullmatch(new) is None:
         raise BadArgument(

@@ -25,7 +25,7 @@ _MAKES: Final = {
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Occurrence:
-    """An occurrence of a name. Equal names of different kinds are different names."""
+    """An occurrence of a name. Names that are spelled alike but are of different kinds count as different names."""
 
     kind: str
     name: str
@@ -101,7 +101,7 @@ class _Context:
         )
 
     def names(self, token: Token, use: Use) -> Iterator[Occurrence]:
-        """Yield the name in a word that is an operand, if the operand accepts a name."""
+        """Yield the name in an operand, or nothing if this operand does not accept a name."""
         operand = use.operand
         if Name not in operand.takes or token.text.upper() == operand.word:
             return

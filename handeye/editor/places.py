@@ -26,7 +26,7 @@ class OperandToken:
 
 
 def instruction(line: Line) -> tuple[Instruction | None, tuple[Token, ...]]:
-    """Return two values: the instruction of a line, or None; and the tokens that begin with the instruction word."""
+    """Return two values: the instruction of a line, or None; and its tokens from the instruction word on."""
     tokens = line.split()[1]
     known = bool(tokens) and tokens[0].kind is TokenKind.NAME
     return (INSTRUCTIONS.get(tokens[0].text.upper()) if known else None), tokens

@@ -316,7 +316,7 @@ def _lenses(script: EditedScript, _: lsp.CodeLensParams) -> list[lsp.CodeLens]:
 
 
 _STAGE_COMMANDS: Final = {
-    "Run": ("handeye.run", "Run this stage, after the stages before it.", ("--stage",)),
+    "Run": ("handeye.run", "Run the program up to the end of this stage.", ("--stage",)),
     "Run from here": ("handeye.runFromHere", "Run the program from this stage on.", ("--from",)),
     "Debug": ("handeye.debug", "Step through the program from this stage on.", ("--step", "--from")),
 }

@@ -35,7 +35,7 @@ class ArmCommands:
         self._act(values)
 
     def stop(self) -> None:
-        """Set the brakes, switch the screwdriver off, and wait until the arm stands."""
+        """Set the brakes, switch the screwdriver off, and wait until the arm stands still."""
         self._drive.state.tool = 0.0
         for _ in range(_STANDS):
             self._pass(None)

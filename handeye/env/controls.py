@@ -43,7 +43,7 @@ class Controls(ABC):
 
     @property
     def known(self) -> Mapping[str, Any]:
-        """What the machine measured of itself, or was taught, before the episode. `reset` returns this in `info`."""
+        """What the machine measured or was taught before the episode. `reset` returns this in `info`."""
         return {}
 
     def facts(self, common: Mapping[str, Any]) -> Facts:

@@ -1,6 +1,7 @@
 """The jobs of the environments: where each episode starts, and what the referee requires at its end.
 
-This module has the jobs of tasks with planned programs. The other systems name their jobs in their entries.
+This module has the jobs of tasks with planned programs. Systems without planned programs name their jobs in their
+entries.
 """
 
 from collections.abc import Mapping
@@ -45,17 +46,19 @@ class Job(Record, frozen=True, kw_only=True):
     until: int | None = None  # stage of the program, from 0, before which the job ends; None: its end
     limit_s: float  # time limit of an episode, s on the cell's clock
     goal: tuple[str, ...] = ()
-    """Beginnings of the names of those findings of the referee that must hold. If this is empty, all findings must
-    hold.
+    """The findings of the referee that must hold, each given by the beginning of its name. If the tuple is empty, all
+    findings must hold.
     """
     limits: Mapping[str, float] = msgspec.field(default_factory=dict)
-    """For some findings, limits that replace the limits of the referee, because only a part of the work is done."""
+    """Limits that replace limits of the referee, by finding. They allow for the part of the work that the job leaves
+    out.
+    """
     plants: tuple[str, ...] = ()
-    """Faults, one of which is planted at the start. The seed chooses the fault and its size."""
+    """The faults from which the seed chooses one, with its size. This fault is planted at the start."""
     sizes: tuple[float, float] = (0.0, 0.0)  # least and greatest size of a planted fault, in the fault's unit
     steps: Mapping[str, tuple[str, ...]] = msgspec.field(default_factory=dict)
-    """Steps of the work, in their order. The key is the name of a step. The value gives the beginnings of the names of
-    the findings that hold if the step is done.
+    """Steps of the work, in their order. The key is the name of a step. If the step is done, certain findings hold;
+    the value gives the beginning of each finding's name.
     """
 
     def requires(self, finding: str) -> bool:

@@ -98,8 +98,8 @@ class Policy:
 
 
 class RandomPolicy(Policy):
-    """Draws every component of every action uniformly. On average, the policy reports in one of a thousand steps that
-    the work is done.
+    """Draws every component of every action uniformly. On average, one step in a thousand reports that the work is
+    done.
     """
 
     def __init__(self, facts: Facts) -> None:

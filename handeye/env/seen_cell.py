@@ -13,7 +13,7 @@ from handeye.ports.workcell import ArmPort, ArmReading, HandPort, HandReading, S
 
 
 class _Commands:
-    """The commands that the devices have received, which the next action carries out."""
+    """The commands that the devices have received since the last action. The next action carries them out."""
 
     def __init__(self, episode: Episode) -> None:
         self.episode = episode

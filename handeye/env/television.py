@@ -14,7 +14,7 @@ FARTHEST: Final = 0.01  # reciprocal of the greatest distance at which the camer
 
 
 class Television:
-    """Carries out the camera commands of actions, and holds the last picture."""
+    """Executes the camera commands in the policy's actions, and holds the last picture."""
 
     def __init__(self, drive: ArmDrive, camera: TvCamera, ready: float) -> None:
         """Begin with a camera whose mechanism comes to rest at the time `ready` (s on the cell's clock)."""

@@ -30,7 +30,9 @@ class Verdict(Record, frozen=True, kw_only=True):
     findings: dict[str, Finding]  # those that the job requires
     reached: tuple[str, ...]  # steps of the work that are finished, up to the first that is not
     peak_N: float | None = None
-    """Greatest true contact force (N) between pin and plate in any physics step; None if this cell has no witness."""
+    """Greatest true contact force (N) between pin and plate in any physics step; None if no witness in this cell
+    records the contacts.
+    """
     stopped: str = ""  # why the arm stopped for good
 
     @property
@@ -73,8 +75,8 @@ def verdict(job: Job, runner: Runner, *, done: bool, stopped: str = "") -> Verdi
 
 
 def _required(job: Job, runner: Runner) -> dict[str, Finding]:
-    """Return the findings that the job requires. A cell that cannot be measured has no findings, so its work is never
-    right.
+    """Return the findings that the job requires. A cell that cannot be measured has no findings, so the work in the
+    cell is never right.
     """
     try:
         every = findings_so_far(runner)

@@ -93,8 +93,8 @@ def _camera(drive: ArmDrive) -> TvCamera:
 
 
 def _sightings(drive: ArmDrive, look: CalibrationLook, place: Vector3, ready: float) -> Iterator[Sighting]:
-    """Show the lamp at a place to a camera that is ready at time `ready` (s), and yield the sighting. Yields
-    nothing if the arm cannot reach the place, or if the camera does not see the lamp.
+    """Hold the lamp at a place, take a picture when the camera is ready (at time `ready`, in s), and yield the
+    sighting. Yields nothing if the arm cannot reach the place, or if the camera does not see the lamp.
     """
     camera = _camera(drive)
     assert drive.arm.hand.lamp is not None

@@ -24,7 +24,7 @@ from handeye.vision.replaceable import BUILT_IN, VisionFunctions
 
 @dataclass(slots=True)
 class Stopwatch:
-    """Adds up the seconds for which it runs, by a given clock. Without a clock it stays at zero."""
+    """Adds up the seconds, on a given clock, during which it runs. Without a clock, the sum stays at zero."""
 
     clock: Callable[[], float] = lambda: 0.0
     seconds: float = 0.0

@@ -108,7 +108,9 @@ class Executor:
         self._leave()
 
     def answer(self, choice: Choice) -> None:
-        """Continue after the operator was called. If the choice is `proceed`, continue after a reversal."""
+        """Continue as the operator has chosen, after a call or after a reversal. If a reversal has stopped with an
+        error, `proceed` continues this reversal, and any other choice ends it.
+        """
         run, stage = self.run, self.state.stage
         assert stage is not None or choice == "proceed"
         going_on = {"proceed": self.state.onward}

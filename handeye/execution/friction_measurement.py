@@ -32,9 +32,9 @@ MIN_TRAVEL: Final = 0.5  # least fraction of the commanded path; a joint that mo
 MAX_RATIO: Final = 1.8
 """Greatest plausible ratio of the measured friction of a joint to the friction in the joint's data.
 
-The value lies between the ratios of sound joints and the ratios of joints whose drives give half of their torque. In
-measurements, sound joints reached 1.61 in sixty worlds. In eighty worlds with twice the errors, only one sound joint
-exceeds the limit, with 1.87. With a drive that gives half of its torque, the ratio is 1.4 to 2.3.
+Almost all sound joints have a smaller ratio. Many joints whose drives give half of their torque have a larger one. In
+sixty measured worlds, sound joints reached 1.61. In eighty worlds with twice the errors, only one sound joint exceeded
+the limit, with 1.87. If the drive of a joint gave half of its torque, the ratio was 1.4 to 2.3.
 """
 
 
@@ -150,8 +150,8 @@ def _drag(drive: ArmDrive, periods: list[ServoPeriod], way: Pass) -> _PassTorque
 
 
 def _profile(way: Pass, period: float) -> Array:
-    """Return the rate at the end of each servo period, as a fraction of the constant rate. The profile is symmetric
-    in time.
+    """Return the rate at the end of each servo period, as a fraction of the constant rate of the pass. The profile is
+    symmetric in time.
     """
     ramp, measured = round(RAMP / period), round(way.seconds / period)
     rise = np.linspace(0.0, 1.0, ramp + 1)

@@ -195,7 +195,7 @@ def _held(run: ExecutionContext, least: float, maximum: float | None) -> Fault |
 
 def _unlike(run: ExecutionContext, least: float, maximum: float | None) -> GapUnlike | None:
     """Compare the gap with the nominal thickness of the object that the hand should hold at this place. Returns None
-    if the two agree.
+    if the two agree, if the hand is empty, or if the object is unknown.
 
     A gap outside the limits that the program gives is not reported the first time, because the hand may hold
     another object, or hold the object askew. If the next grasp reads the same gap, the gap is reported.

@@ -101,7 +101,9 @@ class Agenda(MutableRecord, Generic[Time], kw_only=True):
         return None
 
     def sleep(self, task: str, duration: Time) -> None:
-        """Let a task continue `duration` after the time at which it was due, even if it continued late."""
+        """Make a task due again: its next time is `duration` after the time at which it was last due, even if it
+        continued later than that time.
+        """
         time, again = self.due[task]
         if duration < 0:
             raise BadArgument(f"{task} cannot wait for a negative time")
@@ -133,7 +135,7 @@ def run(clock: Clock, tasks: Sequence[Task[T]], names: Sequence[str] = ()) -> li
     names = names or [f"task {number + 1}" for number in range(len(tasks))]
     running = dict(zip(names, tasks, strict=True))
     if len(running) < len(tasks):
-        raise BadArgument(f"tasks need different names; these are {', '.join(names)}")
+        raise BadArgument(f"tasks need different names; the given names are {', '.join(names)}")
     agenda: Agenda[Fraction] = Agenda(now=Fraction(0))
     until: dict[str, Until] = {}
     ended: dict[str, T] = {}

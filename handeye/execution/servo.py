@@ -1,8 +1,9 @@
 """The servo of an arm. In each servo period, the servo commands torques and estimates the force on the hand.
 
 The servo uses only the device interfaces: positions come from the potentiometers, refined by the tachometers, and
-forces from the residual of the joint torques. The code of a period does not let time pass. After it has commanded all
-devices, it yields to its caller, who lets time pass. When it is resumed, it reads the cell.
+forces from the residual of the joint torques. The code that is executed in a servo period does not itself let time
+pass. After it has commanded all devices, it yields to its caller, who lets time pass. When it is resumed, it reads the
+cell.
 """
 
 from collections.abc import Callable, Generator
@@ -34,8 +35,8 @@ class ServoPeriod(Record, frozen=True, kw_only=True):
 
     sensed: Sensed  # readings of all devices at its end
     effort: Array
-    """Commanded joint torques, shape (n,), N m (N if prismatic). The torques are zero while the brakes are set, and
-    for servos outside the computer.
+    """Commanded joint torques, shape (n,), N m (N if prismatic). The torques are zero while the brakes are set. If the
+    servos are outside the computer, the torques are always zero.
     """
     wrench: Array | None = None
     """Estimated force (N) of the hand on the world and moment (N m) about its tool centre point, in W, shape (6,). If
@@ -69,9 +70,9 @@ class Servo:
     arithmetic: Callable[[ArmModel], ArmArithmetic] = Formulas  # computes an arm at one configuration
     _chain: tuple[ArmModel, ArmArithmetic] | None = field(default=None, init=False)
     _unseen: Array | None = field(default=None, init=False)
-    """Difference (rad, m) in the last servo period between the motion of each joint and the motion that its rates
-    show. None unless the closing gap shows that an object has shifted in the fingers. Such a shift can move the hand
-    suddenly.
+    """How far (rad, m) each joint moved in the last servo period, minus the motion that its rates show. The value is
+    set only if the closing gap shows that an object has shifted in the fingers, which can move the hand suddenly; if
+    not, the value is None.
     """
 
     @property
@@ -161,7 +162,7 @@ class Servo:
 
         If `estimate` is True, the force on the hand is estimated at the end of the period: for `guards` or, if
         `taring` is True, for the tare. `friction` are the torques of known friction, which are compensated, so that
-        friction is not sensed as force. `dither` are torques in addition to those of the servo. Returns the torque
+        friction is not sensed as force. The torques `dither` are added to those of the servo. Returns the torque
         residual, shape (n,), beyond weight, inertia and load; it includes friction.
         """
         q_was, before = self.state.here, self.sensed
@@ -241,10 +242,10 @@ class Servo:
         return sensed
 
     def _jumped(self, tau: Array | None, before: Sensed, after: Sensed) -> Disagreement | None:
-        """Find a potentiometer whose reading jumped in a servo period with torques `tau`, or under the brakes if `tau`
-        is None. A blow on the hand also changes readings suddenly. Such a blow is recognised by the readings of the
-        other joints, and is not taken for a jump. Nor is the blow of an object that shifts in the fingers: the closing
-        gap shows such a blow.
+        """Find a potentiometer whose reading jumped within a servo period. In this period, the drives gave the torques
+        `tau`, or the brakes were set if `tau` is None. A blow on the hand also changes readings suddenly. Such a blow
+        is recognised by the readings of the other joints, and is not taken for a jump. The blow of an object that
+        shifts in the fingers is not taken for a jump either, because the closing gap shows such a blow.
         """
         moved, work = after.q - before.q, self._work(before, after)
         self._unseen = moved - (before.qd + after.qd) * (self.period / 2) if work else None

@@ -54,12 +54,12 @@ _AT_ONCE = 15
 acts up to .25 s late.
 """
 LIGHT = 5.0
-"""Greatest load (N) with which the drag of joints is judged. If the hand lost a heavier load, the loss would look like
-drag above the limit. The load is our choice.
+"""Greatest load in the hand (N) at which the servo loop judges the drag of the joints. If the hand lost a heavier
+load, the loss would look like drag above the limit. The value is our choice.
 """
 SWING = 0.3
-"""A joint swings if it has been off its set-point on both sides by at least this fraction of the limit. A joint that
-is stopped is off only on one side. The fraction is our choice.
+"""A joint swings if it has been off its set-point on both sides, each time by at least this fraction of its greatest
+permitted following error. A joint that an object stops is off only on one side. The fraction is our choice.
 """
 PRESS_TIME = 10.0
 """Time (s) after which a pressing motion ends if it neither advances nor trips its guard. Our choice."""
@@ -74,8 +74,8 @@ class Outcome:
     error: int | None = None  # an error of the motion itself (servo lag, watchdog)
     cause: Cause | None = None  # cause of that error, if there is more to say about it
     off: float = 0.0
-    """Distance (m) of the hand from its set-points in the middle of the motion; 0 unless the hand ended too far from
-    the last set-point.
+    """Distance (m) of the hand from its set-points in the middle of the motion; 0 if the hand ended near enough to the
+    last set-point.
     """
 
 
@@ -129,7 +129,8 @@ class ServoLoop(Servo):
         beside: Callable[[int], None] = lambda _: None,
         taken: list[Exertion] | None = None,
     ) -> Motion[Outcome]:
-        """Follow set-points. The motion ends early if `guard` trips. The torques are appended to `taken`.
+        """Follow set-points. The motion ends early if `guard` trips. The torques of each servo period are appended to
+        `taken`.
 
         The guard watches along `direction`, unit vectors in W, shape (3,) or (N, 3). `beside` is called with the
         number of each set-point, to give further commands for the servo period of that set-point.
@@ -278,10 +279,11 @@ class ServoLoop(Servo):
         rest anywhere within their friction, and the tare would contain that friction.
 
         The force on the hand is computed from the rates, so a tachometer that scatters would be felt as a force. If
-        the joints slide unevenly, the arm therefore also holds still without dither, and the rates are checked.
+        the joints slide unevenly, the arm therefore holds still a second time, without dither, and the rates are
+        checked.
 
-        If the reading of a potentiometer jumps meanwhile, the motion ends at once: the servo would drive the joint
-        towards a place where it does not stand.
+        If the reading of a potentiometer jumps meanwhile, the motion ends at once, because the servo would follow the
+        wrong reading and move the joint.
         """
         uneven = yield from self._taring()
         scatter = (yield from self._resting()) if uneven else None
@@ -436,8 +438,8 @@ class ServoLoop(Servo):
         return joint, abs(float(off[joint]))
 
     def _dragging(self, taken: Sequence[Exertion], lagging: str = "") -> Outcome | None:
-        """Check that in a motion through free air no joint took far more torque than its friction. Without known
-        friction, nothing is checked.
+        """Check that in a motion through free air no joint took far more torque than its friction explains. Without
+        known friction, nothing is checked.
 
         If a joint lagged behind, no other joint is blamed.
         """

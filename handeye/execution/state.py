@@ -136,8 +136,8 @@ class DriveState(MutableRecord, kw_only=True):
     measured.
     """
     weights: Array | None = None
-    """Later estimate of the errors of links and drives, with the covariance of the estimate, shape (3n, 1 + 3n); see
-    `arm.torque_balance`. None if there is no estimate yet.
+    """Estimate of the errors of links and drives, made after `links` was measured, with the covariance of the
+    estimate, shape (3n, 1 + 3n); see `arm.torque_balance`. None if there is no estimate yet.
     """
     tool: float = 0.0  # screwdriver speed, in rad/s
     current: float = 0.0  # its greatest torque since that speed was set, in N m
@@ -157,8 +157,8 @@ class DriveState(MutableRecord, kw_only=True):
     """A jump of a reading since the last motion. None once a motion has reported it."""
     in_air: bool = False  # the last motion was a MOVE without contact
     clear: bool = True
-    """True if neither the hand nor an object in the hand should touch anything. This is the case after a MOVE or
-    CHANGE that was not meant to make contact and reached its end, until the hand grasps an object.
+    """True if neither the hand nor an object in the hand should touch anything. This state begins when a MOVE or CHANGE
+    that was not meant to make contact reaches its end, and ends when the hand grasps an object.
     """
     tare: Array = msgspec.field(default_factory=lambda: np.zeros(6))
     wrench: Array = msgspec.field(default_factory=lambda: np.zeros(6))
@@ -208,16 +208,16 @@ class ExecutionState(SystemState, kw_only=True):
     """Executed steps that have not been reversed, in order."""
     undoing: ReversalOrder | None = None  # the reversal in progress
     lets_go: Natural | None = None
-    """Index of the step that took the screw which has now been turned out. The reversal of that step leaves the
-    screw in its place.
+    """Index of the step in which the hand picked up the screw that has just been turned out. When this step is
+    reversed, the hand leaves the screw where it picked it up.
     """
     held: float | None = None
-    """Gap (m) at which the hand holds an object during a reversal. None if the hand holds no object, or if the program
-    has continued.
+    """Gap (m) at which the hand holds an object during a reversal. None if the hand holds no object, or after the
+    program has continued.
     """
     unwound: dict[int, int] = msgspec.field(default_factory=dict)
-    """For each step of the present stage, the number of reversals that began at the step. A reversal does not
-    reduce this number.
+    """For each step of the present stage, the number of reversals that began at the step. A reversal takes back other
+    values of this state, but not these numbers.
     """
     drive: DriveState
 

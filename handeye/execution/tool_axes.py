@@ -38,8 +38,8 @@ class ToolAxes(Axes):
     """
 
     def __init__(self, drive: ArmDrive, name: str = "tool", reach: float = 1.5) -> None:
-        """Take an arm that is held in place. Goals may be up to `reach` (m) from the origin of W, if the arm can
-        reach them.
+        """Take control of an arm that the servo holds in place. A goal must be at most `reach` (m) from the origin of
+        W, and the arm must be able to reach it.
         """
         self.name, self._drive = name, drive
         self._start = self._goal = self._pose(drive.state.q)  # set-points before and at the end of a period
@@ -84,7 +84,7 @@ class ToolAxes(Axes):
         self._motion = None
 
     def release(self) -> None:
-        """Give up the present goal, because the brakes were set. The arm stands where it is."""
+        """Give up the present goal, because the brakes were set. The arm stays where it is."""
         self.resume(self._pose(self._drive.state.q))
 
     def read(self) -> AxesReading:

@@ -107,7 +107,7 @@ def _dead(run: ExecutionContext, name: str, picture: Picture) -> SenseCause | No
 
 
 def _start(run: ExecutionContext, action: str, seconds: float) -> None:
-    """Postpone the time at which the camera will be ready by the duration of an action. The mechanism of the camera
+    """Add the duration of an action to the time at which the camera will be ready, because the mechanism of the camera
     performs one action after another.
     """
     if seconds <= 0:

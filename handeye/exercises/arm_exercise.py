@@ -1,4 +1,4 @@
-"""Defines exercises for programs of the arm language, which are judged in worlds with fixed seeds."""
+"""Defines exercises in which programs of the arm language are judged in worlds with fixed seeds."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ class ArmExercise(Exercise):
     @property
     def rules(self) -> tuple[str, ...]:
         names = ", ".join(read_taught(self.positions).positions)
-        found = [f"The program uses only the taught positions {names}, and does not change them."]
+        found = [f"The program uses only these taught positions, and does not change them: {names}."]
         if self.most_force is not None:
             found.append(
                 f"The force between pin and plate is at most {self.most_force:g} N in each physics step."

@@ -38,7 +38,7 @@ class ArmWorlds:
     calls: bool = False  # the work is impossible, so a right program calls the operator
 
     def moved(self, by: int) -> Self:
-        """Return the same worlds with seeds that are larger by `by`."""
+        """Return worlds of the same kind, whose seeds are larger by `by`."""
         return replace(self, seeds=range(self.seeds.start + by, self.seeds.stop + by))
 
 

@@ -95,8 +95,8 @@ class Exercise(ABC):
     brief: str  # what to do, in a paragraph
     start: str  # file of the program from which the student starts
     hints: tuple[tuple[str, str], ...]
-    """Hints. Each is a pair: the beginning of the outcome of the first failure, and the sentence to show for this
-    outcome.
+    """Hints. Each is a pair of texts. If the outcome of the first failed case begins with the first text, the second
+    text is shown.
     """
 
     @property
@@ -155,7 +155,7 @@ class Exercise(ABC):
         return Grade(exercise=self.name, verdicts=judged.verdicts, hints=tuple(self._hints(judged)))
 
     def _hints(self, judged: Grade) -> list[str]:
-        """Return hints on the first failure."""
+        """Return hints on the first failed case."""
         if not judged.failures:
             return []
         first = judged.failures[0]

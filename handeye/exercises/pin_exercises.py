@@ -99,8 +99,9 @@ HONEST: Final = ArmExercise(
     name="honest",
     session=4,
     title="report success only if the pin is in",
-    brief="In half of the worlds, the hole is too far away to be found. There the program must call the operator: a "
-    "program that ends as if all were well is worse than one that stops. In the other worlds, the pin must go in.",
+    brief="In half of the worlds, the hole is too far away to be found. In these worlds, the program must call the "
+    "operator: a program that ends as if all were well is worse than one that stops. In the other worlds, the pin "
+    "must go in.",
     task=TASK,
     taught=_TAUGHT,
     start="honest.al",
@@ -114,6 +115,9 @@ HONEST: Final = ArmExercise(
             "Follow each path to the end of the program. On which path does the program not measure that the pin "
             "is in?",
         ),
-        ("called the operator", "The hole was within reach here. Search more places before you give up."),
+        (
+            "called the operator",
+            "In this world, the hole was within reach. Search more places before you give up.",
+        ),
     ),
 )

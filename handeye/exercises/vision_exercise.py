@@ -9,9 +9,10 @@ SEE: Final = ArmExercise(
     name="see",
     session=3,
     title="find the base with the camera",
-    brief="The base of the pump lies somewhere on the belt, turned by up to 30 degrees. Find it with the camera, and "
-    "stop with the hand over its web, with the finger line along the line between its two large holes. In some worlds "
-    "there is no base, or the base lies the wrong way round. There the program must call the operator.",
+    brief="The base of the pump lies somewhere on the belt, turned by up to 30 degrees. Find it with the camera, "
+    "and stop with the hand over its web, with the finger line along the line between its two large holes. In some "
+    "worlds there is no base, or the base lies the wrong way round. In these worlds, the program must call the "
+    "operator.",
     task="water_pump",
     taught="exercises/see.toml",
     start="see.al",
@@ -34,8 +35,8 @@ SEE: Final = ArmExercise(
         ),
         (
             "called the operator",
-            "The base lies as it should here. Before each LOOK, choose the lens, aim the camera, and keep the arm out "
-            "of the picture.",
+            "In this exercise, the base always lies as it should. Before each LOOK, choose the lens, aim the "
+            "camera, and keep the arm out of the picture.",
         ),
     ),
 )

@@ -37,7 +37,7 @@ def aligned(before: Sequence[Step], after: Sequence[Step]) -> list[Pair]:
 def _matched(
     before: Sequence[Step], after: Sequence[Step], old: range, new: range, keys: tuple[Any, ...]
 ) -> Iterator[Pair]:
-    """Match two ranges of steps by the first key. Between the matches, steps are matched by the remaining keys."""
+    """Match two ranges of steps by the first of `keys`, and the steps between the matches by the remaining keys."""
     if not keys or not old or not new:
         yield from ((number, None) for number in old)
         yield from ((None, number) for number in new)
@@ -52,8 +52,8 @@ def _matched(
 
 
 def leads_alike(pairs: Sequence[Pair], old: int | None, new: int | None) -> bool:
-    """Two edges lead to the steps `old` and `new`. Return True if both edges lead to the same step when all removed
-    steps and all added steps are skipped. None stands for the end of the program.
+    """An edge leads to the step `old` before, and to the step `new` after. Return True if it leads to the same step
+    once the removed and the added steps are ignored. None stands for the end of the program.
     """
     at = _pair_of(pairs, 0, old)
     if at < len(pairs) and pairs[at][1] is not None:

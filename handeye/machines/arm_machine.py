@@ -1,5 +1,5 @@
-"""An arm with axes and a hand, as a value: the specification in its manual, and the function that puts the arm on a
-bench.
+"""An arm with axes and a hand, as a value. The value contains the specification from the arm's manual, and the
+function that puts the arm on a bench.
 """
 
 from __future__ import annotations

@@ -38,5 +38,7 @@ class Plan(Record, frozen=True, kw_only=True):
 
     @property
     def joint_counts(self) -> tuple[int, ...]:
-        """The numbers of joints that occur in the motions. In a valid plan, there is exactly one such number."""
+        """The numbers of joints that occur in the motions. In a valid plan, all motions have the same number of
+        joints.
+        """
         return tuple(sorted({len(knot) for motion in self.motions.values() for knot in motion.knots}))

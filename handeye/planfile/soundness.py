@@ -96,7 +96,7 @@ def _references(plan: Plan, step: Step) -> Iterator[str]:
 
 
 def _places(step: Step, lines: Mapping[str, Sequence[str]]) -> Iterator[str]:
-    """Yield the faults in the source places that a step and its modifiers name: lines or columns that the source does
+    """Yield the faults in the places that a step and its modifiers name in the source: lines or columns that it does
     not have.
     """
     parts: tuple[Step | SourcePlace, ...] = (step, *step.modifiers)

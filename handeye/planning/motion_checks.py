@@ -125,8 +125,8 @@ def weakness(
     arm: ArmModel, q: Array, wanted: Array, *, turning: bool = False, weight: float = 0.0
 ) -> Weakness | None:
     """Find the joint that keeps the hand from exerting a force (N, in W) at one of the configurations, shape (N, n).
-    Returns None if no joint keeps the hand from it. If `turning` is True, `wanted` is a moment (N m). `weight` (N) is
-    the weight of a load in the hand.
+    Returns None if the hand can exert the force at all configurations. If `turning` is True, `wanted` is a moment, in
+    N m. `weight` (N) is the weight of a load in the hand.
     """
     size = float(np.linalg.norm(wanted))
     if size == 0.0:

@@ -19,8 +19,8 @@ from handeye.core.units import DEGREE, INCH
 from handeye.program.motion_operations import Change, Move, Turn
 
 CLEARANCE: Final = 3.0 * INCH
-"""Height (m) of departure and approach points. The account of 1972 says "a few inches"; three inches is a recollection
-(decision D10).
+"""Height (m) of departure and approach points. The account of 1972 says "a few inches"; the figure of three inches is
+from memory (decision D10).
 """
 LEAST_CLEARANCE: Final = 0.5 * INCH  # least height, even of a motion between near places
 GUARDED_SPEED: Final = 1.0 * INCH

@@ -36,7 +36,7 @@ SPEED = 0.40
 fraction.
 
 Fitted: with the assumed acceleration limits, the whole job takes about four minutes, as in 1973 (layout study,
-section 5). One fitted number is no evidence of the speed of the real arm.
+section 5). Because the fraction was fitted, the duration of the job is no evidence of the speed of the real arm.
 """
 HOME = "PARK"  # the position a program starts from
 _COLLISION_STRIDE = (
@@ -229,7 +229,7 @@ def plan_program(
     program: Program, arm: ArmModel, language: Language, *, task: str = "", start: Array | None = None
 ) -> tuple[Plan | None, list[Diagnostic]]:
     """Plan a program. Returns two values: the plan, or None if there are errors; and diagnostics in the words of the
-    program's language. `task` is only stored in the plan.
+    program's language. `task` does not affect the planning; it is only stored in the plan.
     """
     plan, findings = make_plan(program, arm, task=task, start=start)
     return plan, language.phrase(program, arm, findings)

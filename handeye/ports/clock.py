@@ -36,8 +36,8 @@ class Clock(ABC):
 
     @property
     def next_event(self) -> Fraction | None:
-        """Seconds until the next event, or None if no event will follow. Only events count that need no command and
-        that tasks may wait for.
+        """Seconds until the next event, or None if no event will follow. An event counts only if it needs no command
+        and if tasks may wait for it.
         """
         return None
 

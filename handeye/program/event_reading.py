@@ -102,7 +102,10 @@ def _refuse_unknown(plain: list[Any], system: str) -> None:
     for event in plain:
         kind = event.get("event") if isinstance(event, dict) else None
         if isinstance(kind, str) and kind not in known:
-            why = "the events come from another version of handeye or of the system that wrote them"
+            why = (
+                "the events come from another version of handeye, or from another version of the system that wrote "
+                "them"
+            )
             if system and system not in entries():
                 why = f"the system {quoted(system)} is not installed"
             raise msgspec.ValidationError(f"events of the kind {quoted(kind)} are unknown here: {why}")

@@ -129,7 +129,7 @@ class Wait(Operation, frozen=True, kw_only=True):
 
 
 class Undo(Operation, frozen=True, kw_only=True):
-    """Reverse the stage and repeat the stage. If the stage has already been reversed `times` times since it began,
+    """Reverse the stage, and then repeat it. If the stage has already been reversed `times` times since it began,
     continue with the next step instead.
     """
 

@@ -48,7 +48,7 @@ class Graph:
         return sorted(number for kind in kinds for number in self.kinds.get(kind, ()))
 
     def each(self, kind: type[A]) -> Iterator[tuple[int, A]]:
-        """Yield the steps with operations of one kind, in order: number and operation."""
+        """Yield the steps with operations of one kind, in order, each as its number and its operation."""
         for number in self.kinds.get(kind, ()):
             operation = self.steps[number].operation
             if isinstance(operation, kind):
@@ -72,8 +72,9 @@ class Graph:
         return reachable([before for number in numbers for before in self.back[number]], self.back)
 
     def last(self, number: int, *kinds: type[Operation]) -> list[int]:
-        """Return the reachable steps that can be the last step of one of these kinds before a given step. The list is
-        empty if some path has no such step, or if the search takes too long.
+        """Return the reachable steps of these kinds that can come before a given step with no other step of these
+        kinds in between. The list is empty if a path to the given step has no such step, or if the search takes too
+        long.
         """
         found: list[int] = []
         seen: set[int] = set()
@@ -146,7 +147,7 @@ class Graph:
 
     def loop(self, start: int, known: set[int]) -> set[int]:
         """Return the steps that can be reached from `start`, or an empty set if one of these steps leads into `known`.
-        Adds them to `known`.
+        Adds the reachable steps to the set `known`.
         """
         found = reachable([start], self.onward, known)
         met = any(target in known for number in found for target in self.onward[number])

@@ -63,7 +63,7 @@ def encode(plan: Record) -> bytes:
 
 
 def decode(data: bytes, name: str, kind: type[P], check: Callable[[P], None]) -> P:
-    """Decode a plan and check it; raises BadFile."""
+    """Decode a plan and check it. Raises BadFile if the data are not a valid plan."""
     try:
         plan = msgspec.json.decode(data, type=kind)
     except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as error:

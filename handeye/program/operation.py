@@ -17,8 +17,8 @@ A target is a position or a part. `goal` is the goal of the last Move, and `trav
 Family = Literal["motion", "hand", "sight", "test", "search", "other"]
 Device = Literal["hand", "screwdriver", "camera"]
 Fields = Mapping[Kind, tuple[str, ...]]
-"""For each kind of value, the fields of an operation that name values of this kind. The tuple is empty for a kind
-with only one, unnamed value.
+"""For each kind of value, the fields of an operation that name values of this kind. If a kind has only one value, and
+this value has no name, the tuple is empty.
 """
 
 
@@ -47,8 +47,8 @@ class Operation(
 ):
     """Base class of the operations. The class name in lower case is the tag in the plan file.
 
-    The default of a field always means that the operation lacks this property. Therefore, a plan without the field
-    keeps its meaning.
+    Each field stands for a property, and its default means that the operation does not have this property. So a plan
+    keeps its meaning if the field is missing from it.
     """
 
     family: ClassVar[Family] = "other"
@@ -120,7 +120,7 @@ class Operation(
         return None
 
     def leading_to(self, target: int | None) -> Self:
-        """Return a copy of the operation with another branch target."""
+        """Return a copy of the operation with a different branch target."""
         raise NotImplementedError(f"{type(self).__name__} has no branch")
 
     @property

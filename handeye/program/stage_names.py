@@ -12,7 +12,7 @@ _NUMBER: Final = re.compile(r"[0-9]{1,9}")
 
 def stage_index(text: str, stages: Sequence[str]) -> int:
     """Return the index of a stage. `text` is the number of the stage (from 1), its name, or a unique part of its
-    name. Raises an error if there is no such stage.
+    name. Raises NoSuchName if there is no such stage.
     """
     if _NUMBER.fullmatch(text.strip()):
         if not 1 <= int(text) <= len(stages):
@@ -26,7 +26,7 @@ def stage_index(text: str, stages: Sequence[str]) -> int:
 
 def stage_called(text: str, stages: Sequence[str]) -> int | None:
     """Find the only stage called `text`; or else, the only stage whose name begins with it; or else, the only stage
-    whose name contains it. Returns the index of the stage, or None if there is none.
+    whose name contains it. Returns the index of the stage, or None if no stage fits.
     """
     wanted = text.strip().casefold()
     names = [name.casefold() for name in stages]

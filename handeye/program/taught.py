@@ -212,12 +212,14 @@ MAX_BOXES: Final = 500  # in a file; each box makes the check of motions slower
 
 
 def load_taught(path: str | Path) -> Taught:
-    """Read a taught TOML file (inches and degrees). Raises BadFile with the key at fault."""
+    """Read a taught TOML file (inches and degrees). Raises BadFile with a message that names the wrong key."""
     return read_taught(read_source(path))
 
 
 def read_taught(source: Source) -> Taught:
-    """Parse the text of a taught TOML file (inches and degrees). Raises BadFile with the key at fault."""
+    """Parse the text of a taught TOML file (inches and degrees). Raises BadFile with a message that names the wrong
+    key.
+    """
     path = source.name
     try:
         tables = msgspec.convert(tomllib.loads(source.text), _File)

@@ -64,7 +64,7 @@ def _paragraph(proof: Proof, finding: FindingProof, program: Program) -> str:
 
 
 def said_of(says: str, claims: Sequence[ClaimProof]) -> str:
-    """Write one clause for claims that differ only in their places."""
+    """Return one clause that states several claims, which differ only in their places."""
     places = [claim.where for claim in claims if claim.where]
     first = {place.split(" ")[0] for place in places}
     if len(places) > 1 and len(first) == 1 and all(place.count(" ") == 1 for place in places):
@@ -73,7 +73,9 @@ def said_of(says: str, claims: Sequence[ClaimProof]) -> str:
 
 
 def _passed(claim: ClaimProof, program: Program) -> str:
-    """Write, for each phase of a claim, the lines of which every path passes one."""
+    """Write the lines of the program that show a claim, phase by phase. Every path passes one of the lines of each
+    phase.
+    """
     said = []
     for step, steps in zip(claim.passed, claim.phases, strict=True):
         lines = list(dict.fromkeys(_line(program, number) for number in (steps if step is None else [step])))
@@ -82,7 +84,9 @@ def _passed(claim: ClaimProof, program: Program) -> str:
 
 
 def _line(program: Program, number: int) -> str:
-    """Write a line with its word, the macro that its stage calls, and what happens if its action raises an error."""
+    """Describe a step: its line, its word, the macro that its stage calls, and what happens if its action raises an
+    error.
+    """
     step = program.steps[number]
     behind = None if step.next is None else program.steps[step.next].operation
     tested = behind is not None and behind.branch is not None and behind.branch.error is not None
@@ -163,7 +167,8 @@ def _undecided(
         return problem("finding-undecided", message, span, notes=(f"not decided: {says}",))
     unknown = [program.steps[number] for number in first.unknown]
     message = (
-        f"it cannot be decided whether every path shows `{finding.finding}`: the program does not fix a place"
+        f"it cannot be decided whether every path shows `{finding.finding}`: the program does not fix a place on "
+        "the path"
     )
     return problem(
         "finding-undecided", message, _span(source, unknown[0]), text="where is the hand here?",

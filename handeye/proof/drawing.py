@@ -26,8 +26,8 @@ def proof_flow(proof: Proof, plan: Plan) -> Flow:
 
 
 def _notes(proof: Proof) -> dict[int, list[str]]:
-    """Return notes for each step to draw: the findings that rest on the step, and the findings that a path does not
-    show because of the edge by which it leaves the step.
+    """Return the notes on each drawn step. They name the findings that rest on the step. They also name the findings
+    that a path does not show because the path leaves the step by a certain edge.
     """
     found: dict[int, dict[str, None]] = {}
     for finding in proof.findings:

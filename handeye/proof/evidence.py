@@ -65,7 +65,7 @@ class Region(Record, frozen=True, kw_only=True):
 
 
 class Passed(NamedTuple):
-    """A step that was executed with one outcome."""
+    """A step on a path, and the outcome with which the path passes the step."""
 
     places: HandPlaces
     node: int
@@ -104,7 +104,7 @@ class Evidence(Record, frozen=True, kw_only=True, tag=True):
     operations: ClassVar[tuple[type[Operation], ...]]  # to which the kind can apply
 
     def shown(self, passed: Passed) -> Answer:
-        """Say whether an executed step with this outcome is of this kind."""
+        """Say whether the executed step `passed`, with its outcome, is evidence of this kind."""
         raise NotImplementedError
 
     def failed(self, passed: Passed) -> Answer:
@@ -116,7 +116,7 @@ class Evidence(Record, frozen=True, kw_only=True, tag=True):
 
 def touches(guards: Guards, along: Vector3, force: Limits) -> bool:
     """Return True if there is at least one guard, and if each guard trips when a force opposes a motion in the
-    direction `along`. This force must be within the limits `force`.
+    direction `along`. The force at which a guard trips must be within the limits `force`.
     """
     felt = [guard.exerted(along) for guard in guards if isinstance(guard, Force | Against)]
     return bool(felt) and len(felt) == len(guards) and all(
@@ -166,7 +166,7 @@ class Contact(Record, frozen=True, kw_only=True):
 
 
 class HeightWithin(Evidence, frozen=True, kw_only=True):
-    """A HEIGHT after a contact, measured from the height of another contact. The range (m) of the HEIGHT lies within
+    """A HEIGHT after a contact. HEIGHT measures from the height of another contact, and its range (m) lies within
     limits.
     """
 
@@ -220,7 +220,7 @@ class Contacted(Evidence, frozen=True, kw_only=True):
 
 
 class FreeTurn(Evidence, frozen=True, kw_only=True):
-    """A turn about an axis. The turn went through at least a given arc, and met less than a given force (N).
+    """A turn about an axis, through at least a given arc, that met less than a given force (N).
 
     The arc is given by its ends (rad from table x, counter-clockwise) and by the direction of the turn: 1 for
     counter-clockwise, -1 for clockwise.

@@ -12,13 +12,14 @@ class Phase(Record, frozen=True, kw_only=True):
     by: tuple[Evidence, ...] = ()
     undone: tuple[Evidence, ...] = ()
     """Kinds of steps after which the phase must be shown again, because these steps may change what the phase has
-    shown. This holds even if such a step raises an error.
+    shown. The phase must be shown again even if such a step raises an error.
     """
 
 
 class Claim(Record, frozen=True, kw_only=True):
-    """What some steps of a program show, in the order of the claim's phases. If `at_first` is True, the claim holds
-    when the program begins. In this case, the program must show the claim only after a step has undone it.
+    """A statement about the work that some steps of a program, in the order of its phases, show to be true. If
+    `at_first` is True, the claim holds when the program begins. In this case, the program must show the claim only
+    after a step that undoes the claim.
     """
 
     says: str  # clause, such as `the fingers feel the head`
@@ -49,14 +50,15 @@ class Claim(Record, frozen=True, kw_only=True):
 
 
 class Obligation(Record, frozen=True, kw_only=True):
-    """A finding of the referee, and claims. A program that shows these claims would notice if the finding did not
-    hold. If there are no claims, a program need not show the finding, and `rests` gives the reason.
+    """A finding of the referee, with the claims that a program must show for it. A program that shows these claims
+    would notice if the finding did not hold. If there are no claims, a program need not show the finding, and `rests`
+    gives the reason.
     """
 
     finding: str
     claims: tuple[Claim, ...] = ()
     rests: str  # sentence: on what the argument rests besides the claims, or how much may remain unnoticed
     unnoticed: float | None = None
-    """Value of the finding, in its unit, up to which a failure may remain unnoticed; None if the limit is not stated
-    as a number.
+    """The largest value of the finding (in the finding's unit) at which a failure may remain unnoticed; None if no
+    number is stated for it.
     """

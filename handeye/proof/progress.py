@@ -85,7 +85,7 @@ class Effects:
 
 
 def least_shown(graph: OutcomeGraph, effects: list[Effects]) -> list[int]:
-    """Return, for each claim, the least number of phases that a path to the end has shown. The search assumes that
+    """For each claim, return the least number of its phases that a path to the end has shown. The search assumes that
     every branch is possible: it does not follow counters. UNREACHED means that no path leads to the end of the
     program.
     """

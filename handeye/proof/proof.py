@@ -33,23 +33,23 @@ class ClaimProof(Record, frozen=True, kw_only=True):
     verdict: Verdict
     phases: tuple[tuple[int, ...], ...] = ()  # for each phase, the steps that show it
     passed: tuple[int | None, ...] = ()
-    """For each phase, a step that shows the phase on every path to the end. If there are several such steps, the last
-    of them before the step of the next phase. None for a phase that different paths show at different steps. Empty
-    unless the claim is shown.
+    """For each phase, a step that shows the phase on every path to the end: the last such step before the step of the
+    next phase. The entry is None if different paths show the phase at different steps. The tuple is empty unless the
+    claim is shown.
     """
     way: tuple[WayStep, ...] = ()  # a shortest path to the end that avoids the claim
     leaves: int | None = None
-    """Index, in the path, of the last step from which some other path leads to a step that shows the claim. None if no
-    step of the path has another path of this kind.
+    """Index, in the path, of the last step at which the path could still have branched off to a step that shows the
+    claim. None if there is no such step.
     """
     undone: int | None = None
-    """Index, in the path, of the last step after which the claim must be shown again; None if there is none."""
+    """Index, in the path, of the last step after which the claim must be shown again; None if no step requires this."""
     unknown: tuple[int, ...] = ()  # steps whose place the program does not fix
     too_many: bool = False  # True if the search for a path was given up because it became too large
 
 
 class FindingProof(Record, frozen=True, kw_only=True):
-    """The verdict on one finding of the referee. If the finding has no claims, a program need not show it."""
+    """The verdict on one finding of the referee. A finding without claims is one that no program needs to show."""
 
     finding: str
     rests: str

@@ -149,7 +149,7 @@ def _at_hand(run: RecordedRun, time: float) -> str | Near:
 def _taken(
     run: RecordedRun, wanted: Sequence[_PhotographRequest], size: _PrintSize
 ) -> tuple[Photograph, ...]:
-    """Take the photographs. If they cannot be taken, the reason replaces each photograph."""
+    """Take the photographs. If they cannot be taken, return the reason in place of each photograph."""
     try:
         return tuple(_take(run, wanted, size))
     except InvalidInput as fault:

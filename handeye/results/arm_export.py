@@ -28,7 +28,7 @@ class ExportedJoint(Record, frozen=True, kw_only=True):
 
 
 class ExportedArm(Record, frozen=True, kw_only=True):
-    """A record of an arm that was written."""
+    """The record of an exported arm."""
 
     path: str
     arm: str

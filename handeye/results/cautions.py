@@ -1,4 +1,4 @@
-"""Warns why the result of a resumed run may differ from the result of an uninterrupted run."""
+"""Warns that the result of a resumed run may differ from the result of an uninterrupted run, and says why."""
 
 from collections.abc import Iterator
 
@@ -40,7 +40,7 @@ def losses(folder: RunFolder, runner: Runner) -> Iterator[str]:
         yield unguarded(folder.path, folder.unlocked)
     if folder.lost:
         yield (
-            f"the trace in {folder.path} was lost or damaged: the trace does not contain the motions before "
+            f"the old trace in {folder.path} was lost or damaged: the new trace does not contain the motions before "
             f"{runner.time:.2f} s"
         )
     if folder.journal_lost:

@@ -44,12 +44,12 @@ def report(catalogue: Catalogue, kinds: Sequence[FaultKind]) -> FaultsReport:
 
 
 def faults_json(catalogue: Catalogue, kinds: Sequence[FaultKind]) -> bytes:
-    """Return these faults of a catalogue as one JSON object."""
+    """Return faults of a catalogue as one JSON object."""
     return msgspec.json.format(msgspec.json.encode(report(catalogue, kinds)), indent=1) + b"\n"
 
 
 def faults_page(catalogue: Catalogue, kinds: Sequence[FaultKind], columns: int) -> RenderableType:
-    """Return these faults of a catalogue as a page for a terminal that is `columns` wide."""
+    """Return faults of a catalogue as a page for a terminal that is `columns` wide."""
     found = report(catalogue, kinds).faults
     parts: list[RenderableType] = []
     for device, faults in groupby(found, lambda fault: fault.name.split(".")[0]):

@@ -38,8 +38,8 @@ def findings_so_far(runner: Runner) -> Findings:
 
 
 def findings_after(runner: Runner, done: int) -> Findings:
-    """Return those findings of the task's referee on the present state of the work that must hold after `done` stages
-    of the task's own program.
+    """Return the findings of the task's referee on the present state of the work, but only those findings that must
+    hold after `done` stages of the task's own program.
     """
     task = runner.task
     found = {
@@ -86,8 +86,8 @@ def check_limits(runner: Runner) -> None:
 
 
 def limited(findings: Findings, limits: Limits) -> Findings:
-    """Return the findings. If `limits` contains a limit for a finding, this limit replaces the finding's own limit.
-    Raises InvalidInput if a limit belongs to no finding.
+    """Return the findings with other limits. If `limits` contains a limit for a finding, this limit replaces the
+    finding's own limit. Raises InvalidInput if a limit belongs to no finding.
     """
     found = dict(findings)
     for name, limit in limits.items():

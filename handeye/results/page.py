@@ -18,7 +18,7 @@ TimingRow = tuple[str, float, float | None]
 """A row of the timing table: name, seconds in this run, and seconds in 1973 (None if the paper does not report them).
 """
 _NEUTRAL = Words(done="The referee accepts the result.", product="the work")
-"""Words for a task that is unknown here, because only the Python program that began the run defines it."""
+"""Words for a task that handeye does not know, because only the Python program that began the run defines the task."""
 _MARK = {
     "done": ("✓", "green"),
     "under way": ("▸", "yellow"),

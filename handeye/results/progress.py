@@ -30,8 +30,8 @@ _CALIBRATING: Final = "calibrating: view {} of {}"
 
 
 class Progress(Observer):
-    """Shows calibration, stage, statement and time of a run in a progress bar. If standard error is not a terminal,
-    one line is printed for each stage instead.
+    """Shows the calibration, the stage, the statement and the time of a run in a progress bar. If standard error is
+    not a terminal, one line is printed for each stage instead.
     """
 
     def __init__(self, stages: tuple[str, ...], console: Console) -> None:

@@ -53,8 +53,7 @@ class Timing(Record, frozen=True, kw_only=True):
     lens_s: float
     """Simulated time in which the arm waited for lens change, aim, focus and pictures."""
     overlapped_s: float
-    """Simulated time in which the camera's mechanism was busy while the arm moved; `manipulation_s` includes this
-    time.
+    """Simulated time in which the camera's mechanism and the arm moved at once; `manipulation_s` includes this time.
     """
     working_s: float
     """Simulated time of the working phase: the sum of `manipulation_s` and `lens_s`."""
@@ -181,8 +180,8 @@ class Result(Record, frozen=True, kw_only=True):
     figures: dict[str, float] | UnsetType = UNSET
     """Figures that the system of the run adds. The keys are their names."""
     built: dict[str, Check] | UnsetType = UNSET
-    """Findings on the finished work of a job, before the job undid the work; `referee` has the findings after the
-    undoing.
+    """Findings on the finished work of a job that then undid its work. `referee` has the findings on the state after
+    the undoing.
     """
     legs: tuple[LegResult, ...] | UnsetType = UNSET
     """The legs of a relay, in order; set only if the run is a relay."""
@@ -247,8 +246,8 @@ def restore_figures(findings: Any) -> None:
 
 
 def told_limits(result: Result) -> tuple[str, ...]:
-    """Return the limits that the calling program set. If the referee measured the quantity of a limit, the limit has
-    the quantity and its unit with it.
+    """Return the limits that the calling program set. If the referee measured the quantity of a limit, the text of
+    this limit also gives the quantity and its unit.
     """
     checks = {**result.referee, **(result.built or {})}
     return tuple(

@@ -1,5 +1,5 @@
-"""Advances a run step by step until it ends or a stop condition pauses it. Passes the states that must be kept to the
-run's observers.
+"""Advances a run step by step until it ends or a stop condition pauses it. Gives the run's observers the states that
+must be kept.
 """
 
 from collections.abc import Callable, Sequence

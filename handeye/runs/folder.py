@@ -85,8 +85,8 @@ class RunFolder(Observer):
     def watch(
         self, runner: Runner, start: Checkpoint, *, again: bool, meter: Meter | None = None
     ) -> "RunFolder":
-        """Observe a run that begins at `start`. If `again` is True, the run does not begin at `start`, but resumes
-        there. `meter` measures the run's host time.
+        """Observe a run that begins at `start`, or that resumes there if `again` is True. `meter` measures the run's
+        host time.
         """
         if (self.path / RESULT).is_dir():  # found now, not only when the run ends
             raise CannotWrite(f"{self.path / RESULT} cannot be written: it is a folder")

@@ -27,8 +27,8 @@ sinks by less than this distance.
 """
 TURNED: Final = 0.02  # rad by which the hand may be turned. Our choice.
 GAP_CHANGED: Final = 1e-3
-"""Change (m) of the gap up to which the hand still holds the same part. Our choice: a part that straightens between
-the fingers makes the gap up to .55 mm wider or narrower.
+"""If the gap between the fingers has changed by at most this distance (m), we assume that the hand still holds the
+same part. Our choice: a part that straightens between the fingers makes the gap up to .55 mm wider or narrower.
 """
 MOST_NAMES: Final = 200
 
@@ -48,7 +48,7 @@ class HandOver(Record, frozen=True, kw_only=True):
     held: str = ""  # the part that the hand holds, as its program calls it; empty: none
     load: float = 0.0  # weight of what the hand holds, as the program knows it
     named: dict[Kind, dict[str, tuple[float, ...]]] = field(default_factory=dict)
-    """What programs have found: the numbers of each value, by kind and name."""
+    """The values that programs have found, by kind and name. Each value is a tuple of numbers."""
 
     def check(self) -> None:
         """Raise Refused unless all values are finite numbers in SI units."""
@@ -84,7 +84,9 @@ class HandOver(Record, frozen=True, kw_only=True):
         raise Refused(f"{quoted(name)} is a {other} in the hand-over record, but the leg needs a {kind}")
 
     def height(self, name: str) -> float:
-        """Return a height (m), or the height of a place. Raises Refused as `value` does."""
+        """Return the height (m) with this name, or the height of the place with this name. Raises Refused as `value`
+        does.
+        """
         if name in self.named.get("place", {}) and name not in self.named.get("height", {}):
             return float(self.value(name, "place")[2])
         return float(self.value(name, "height")[0])

@@ -51,13 +51,13 @@ class RunningLeg(RunningSystem):
 
     @abstractmethod
     def leave(self, record: HandOver | None) -> HandOver:
-        """Set the brakes, and return the record for the next leg. The new record also keeps those values of the
-        previous record that this program does not know.
+        """Set the brakes, and return the record for the next leg. The new record also contains those values of
+        `record` that the program of this leg does not know.
         """
 
     def take_back(self, station: StationMemory) -> None:
         """Take the arm back from the program of the next leg, after that program has undone its steps. The arm is
-        roughly where this program left it. Only a program that can undo its own steps needs this method.
+        roughly where it was when this leg ended. Only a program that can undo its own steps needs this method.
         """
         raise NotImplementedError
 
@@ -76,8 +76,8 @@ class LegSystem(ABC):
     stages_in_text = False  # True: the text itself is divided into stages; False: it is one leg
     words: frozenset[str] | None = None
     """Operations (`program/operations.py`) for which the language has words; None if the language has words for all
-    operations. `Restore` stands for saved differences in a motion, and `Comply` for the control of the force in a
-    motion.
+    operations. In this set, `Restore` means that the language can use saved differences in a motion, and `Comply`
+    means that it can control the force in a motion.
     """
 
     @abstractmethod
@@ -89,7 +89,7 @@ class LegSystem(ABC):
         return system_named(self.system).encode(plan)
 
     def decode(self, data: bytes, name: str) -> Record:
-        """Decode and check a plan. Messages call the plan `name`. Raises InvalidInput."""
+        """Decode and check a plan. Messages call the plan `name`. Raises InvalidInput if the plan is not valid."""
         plan: Record = system_named(self.system).decode(data, name)
         return plan
 

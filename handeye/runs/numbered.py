@@ -1,4 +1,4 @@
-"""A run of a program of numbered lines: the events and checks that the systems of such languages share."""
+"""A run of a program with numbered lines: the events and checks that all systems with such programs share."""
 
 from abc import abstractmethod
 from typing import ClassVar, Literal
@@ -50,7 +50,7 @@ class NumberedRun(RunningSystem):
         )  # fmt: skip
 
     def _enter(self) -> tuple[int, NumberedStep]:
-        """Return the next step and its number. If this is the first step of the run, the stage begins."""
+        """Return the next step and its number. Before the first step of the run, begin the run's only stage."""
         state = self.state
         assert state.at is not None
         if state.stage is None:

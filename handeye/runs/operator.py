@@ -90,7 +90,7 @@ class Retry:
 
 @dataclass(frozen=True, slots=True)
 class UnwindOnce:
-    """Lets the arm undo its steps back to the beginning of the stage with this index, once for each stage that
+    """Lets the arm undo its steps back to the beginning of the stage whose index is `stage`, once for each stage that
     fails.
 
     Like `Retry`, this operator counts earlier attempts from the events of the run.
@@ -145,7 +145,7 @@ def parse_policy(text: str, stages: Sequence[str]) -> Operator | None:
     times = re.fullmatch(r"retry:([1-9][0-9]{0,5})", text)
     if times is None:
         raise BadArgument(
-            f"--on-stop takes abort, ask, retry:N with N of 1 or more, unwind or unwind:STAGE, not {quoted(text)}"
+            f"--on-stop takes abort, ask, retry:N (N is at least 1), unwind or unwind:STAGE, not {quoted(text)}"
         )
     return Retry(int(times[1]))
 

@@ -63,7 +63,7 @@ def reach(first: int) -> str:
 
 
 def _typed_within_step(events: Sequence[AnyEvent]) -> list[LineTyped]:
-    """Return the lines that were typed during the step with which these events begin."""
+    """Return the lines that were typed during the first step of these events."""
     within = itertools.takewhile(lambda event: not isinstance(event, StepFinished), events)
     return [event for event in within if isinstance(event, LineTyped)]
 
@@ -197,7 +197,9 @@ class Runner:
 
     @property
     def places(self) -> tuple[TaskPlace, ...]:
-        """The position of each unfinished task in the program. `at` is the next step of the task that runs next."""
+        """The position of each unfinished task in the program. The property `at` gives the next step of the task that
+        runs next.
+        """
         return self.system.state.places
 
     @property
@@ -216,7 +218,7 @@ class Runner:
 
     @property
     def between_stages(self) -> bool:
-        """True if no stage is in progress and another one follows."""
+        """True if no stage is in progress and a further stage follows."""
         return self.stage is None and self.at is not None
 
     @property

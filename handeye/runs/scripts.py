@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from handeye.planning.planner import PlannedScript
 
 LANGUAGES: Final = {".al": AL}
-"""Languages of scripts by file ending; a file with another ending is read in the first language."""
+"""Languages of scripts by file ending. A file with any other ending is read in the first language of this table."""
 
 UNNAMED: Final = "script.al"  # name of a text that comes from no file
 
@@ -85,7 +85,7 @@ def in_cell(known: Taught, work: Task) -> Taught:
 
 def plan_script(file: Path, known: Taught | None = None, work: Task | None = None) -> "PlannedScript":
     """Compile and plan a script. By default, the function uses the script's own task, and the taught file in the
-    script's folder. Raises InvalidInput.
+    script's folder. Raises InvalidInput if a file cannot be used.
     """
     entry, _ = entry_of_file(file.name)
     if entry is not None:

@@ -66,7 +66,7 @@ def kept_starts(folder: Path | None) -> list[Path]:
 
 
 class StartStates:
-    """The starts of one task, in a folder. Without a folder, every start is made again."""
+    """The start states of one task, kept in a folder. Without a folder, every start state is made again."""
 
     def __init__(self, task: str, camera: str, folder: Path | None = None) -> None:
         """Keep the starts in a folder, by default in the user's cache."""
@@ -125,7 +125,7 @@ class StartStates:
 
 
 def planted(start: Checkpoint, fault: Fault) -> Checkpoint:
-    """Return a start with one more fault in its world. The fault acts only from the beginning of a stage on; before
+    """Return a start with one more fault in its world. The fault acts only after a certain stage has begun. Before
     that stage, the worlds with and without the fault are equal.
     """
     setup, snapshot = start.setup, start.snapshot
@@ -165,7 +165,7 @@ def own_plan(task: str) -> Plan:
 
 
 def _trim(folder: Path) -> None:
-    """Remove the oldest starts beyond the limit."""
+    """Remove the oldest starts until a folder is within its limit."""
     together = 0
     for path in kept_starts(folder):
         together += path.stat().st_size

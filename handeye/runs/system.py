@@ -199,13 +199,15 @@ class RunningSystem(Protocol):
 
     @abstractmethod
     def begin(self) -> Sequence[AnyEvent]:
-        """Prepare the first step. Returns the events that begin the run at time 0, with `RunStarted` first.
-        Raises Halted.
+        """Prepare the first step. Returns the events that begin the run at time 0, with `RunStarted` first. Raises
+        Halted if the panic button is pressed.
         """
 
     @abstractmethod
     def step(self) -> None:
-        """Execute one step. After an interruption, the whole step is repeated. Raises Halted or PhysicsFailed."""
+        """Execute one step. After an interruption, the whole step is repeated. Raises Halted if the panic button is
+        pressed, or PhysicsFailed if the simulation breaks down.
+        """
 
     def halt(self) -> None:
         """Bring the machine to rest in a safe state, for example with its brakes on, because the run cannot continue.
@@ -352,8 +354,8 @@ class StepperWords:
 
 
 class LiveNews(ABC):
-    """The part of a live run's page that only one system shows. While the run continues, the server's thread asks this
-    object for news.
+    """The part of a live run's page that is specific to the run's system. While the run continues, the server's thread
+    asks this object for news.
     """
 
     part: PagePart
@@ -391,7 +393,7 @@ class System(ABC):
 
     @abstractmethod
     def decode(self, data: bytes, name: str) -> Any:
-        """Decode and check a plan. Messages call the plan `name`. Raises InvalidInput."""
+        """Decode and check a plan. Messages call the plan `name`. Raises InvalidInput if the plan is not valid."""
 
     def digest(self, plan: Any, data: bytes) -> str:
         """Return sixteen hexadecimal digits that identify a plan. `data` is the encoded plan."""
@@ -473,5 +475,5 @@ class System(ABC):
         return None
 
     def parts(self, folder: Path) -> Sequence[PagePart]:
-        """Return the sections that only this system adds to the report of the run in a folder."""
+        """Return the sections, specific to this system, that are added to the report of the run in a folder."""
         return ()

@@ -37,8 +37,8 @@ class ToolMemory(MutableRecord, kw_only=True):
 
 
 class ToolArm:
-    """The arm of a cell, for a program that moves its tool axes. Between the legs of the program, other programs may
-    move the arm.
+    """The arm of a cell, for a program that moves the tool axes of this arm. Between the legs of the program, other
+    programs may move the arm.
     """
 
     def __init__(self, cell: SimulatedCell, arm: ArmModel, around: RunCallbacks) -> None:

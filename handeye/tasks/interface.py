@@ -94,7 +94,7 @@ class AnyTask(ABC):
     force_axes: str = "world axes"  # axes of the hand's force in traces
     measures: Measures = INCHES  # display units for runs of the task
     holds_from: Mapping[str, int] = MappingProxyType({})
-    """Findings that must hold before the work is finished. The key is the beginning of the finding's name; the
+    """Findings that must already hold while the work is unfinished. The key is the beginning of the finding's name; the
     value is the number of the stage, in the task's own program, after which the finding must hold.
     """
     judges_stopped = False
@@ -187,14 +187,16 @@ def _check_scene(task: AnyTask, scene: mujoco.MjModel) -> None:
 
 
 class Task(AnyTask):
-    """The work of an arm that runs planned programs. The task provides cell, worlds, programs and referee."""
+    """The work of an arm that runs planned programs. The task provides the cell, the worlds, the programs and the
+    referee.
+    """
 
     arm: ArmModel
     park: Array
     """Joint positions at which the cell is switched on (rad or m), shape (n,)."""
     script: str | None = None
-    """The task's own program, used unless another is named: a file among the included plans, or the path of a file
-    elsewhere.
+    """The task's own program: a file among the included plans, or the path of a file elsewhere. The task runs this
+    program unless the user names another.
     """
     other_scripts: tuple[str, ...] = ()
     """Further programs of the task, given in the same way as `script`. Commands find each program by its file name

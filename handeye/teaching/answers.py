@@ -108,7 +108,7 @@ def about(
 
 
 def answer(workplace: Workplace, **fields: Any) -> Answer:
-    """Return an answer whose result has these fields of `LineResult`."""
+    """Return an answer. `fields` are the values of fields of its result, a `LineResult`."""
     return Answer(time=workplace.time, said=LineResult(**fields))
 
 

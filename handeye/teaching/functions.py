@@ -24,8 +24,8 @@ _ALONE: Final = frozenset(
         "unused-position", "unused-vector", "compared-without-hold",
     }
 )  # fmt: skip
-"""Codes of warnings about instructions that are missing in the text. These instructions may have been executed
-before, or may follow.
+"""Codes of warnings about instructions that the typed text lacks. The user may have executed these instructions
+before, or may type them later.
 """
 _LASTING: Final = ("TRANS", "VECT")
 
@@ -56,7 +56,9 @@ def planned(
 
 
 def mistakes(checked: PlannedScript, line: int) -> list[Diagnostic]:
-    """Return the mistakes in a line of a text, or in its required files, that no later line can correct."""
+    """Return the mistakes that no later line can correct, in one line of a text and in the files that the text
+    requires.
+    """
     found = []
     for diagnostic in checked.diagnostics:
         text, offset = checked.source.find(diagnostic.primary.span.start)

@@ -21,8 +21,8 @@ close both switches. If the fingers closed more slowly, a finger that touches wo
 would push a loose object a little each time it touched again.
 """
 EASING: Final = 0.0015
-"""Greatest distance (m) that the hand moves towards a touching finger until the finger no longer touches. It is the
-deflection of the arm under 18 N.
+"""If a finger touches an object, the hand moves towards this finger until the finger no longer touches. This is the
+greatest distance (m) of this motion: the deflection of the arm under 18 N.
 """
 
 

@@ -17,13 +17,14 @@ FREE_OPENING: Final = 0.12 * INCH
 Each finger moves by half of the opening, 1.5 mm. Only a force of about 18 N could deflect the arm by as much.
 """
 GAP_ERROR: Final = 0.1 * INCH
-"""Permitted difference (m) between the gap and its goal. The finger servo stops within a few hundredths of an inch.
-The value is a placeholder.
+"""Permitted difference (m) between the gap and its goal. The finger servo stops within a few hundredths of an inch of
+the goal. The value is a placeholder.
 """
 GAP_NOISE: Final = 0.02 * INCH  # m; twenty times the sensor noise
 SHIFT_NOISE: Final = 0.006 * INCH
-"""Greatest change (m) of the gap reading between two servo periods while the fingers stand still: one step of the
-converter (.001 in) for rounding, and five standard deviations of the noise (.0006 in per reading at the high level).
+"""Greatest change (m) of the gap reading between two servo periods while the fingers stand still. The value allows for
+one step of the converter (.001 in), because of rounding, plus five standard deviations of the noise (.0006 in per
+reading at the high level).
 """
 FREE_FORCE: Final = 45 * OUNCE_FORCE
 """Greatest force sensed in free air: 12.5 N.
@@ -36,9 +37,9 @@ SWITCH_FORCE: Final = 10 * OUNCE_FORCE
 """Force (N) with which the fingers press after centring. It closes both switches.
 
 The switches close at 2 ounces, with a stated spread of .4 ounces. In worlds of the high level, the spread is .8
-ounces. With three times this spread added, each finger must press with at least 4.4 ounces. One finger may carry 3
-ounces less than the other, because the arm holds the difference, and the gap is known only to one step of its
-converter.
+ounces. With three times this spread added, each finger must press with at least 4.4 ounces. The rest of the force
+allows for two errors. One finger may press with 3 ounces less than the other, because the arm can hold the difference.
+The force depends on the gap, which is known only to one step of its converter.
 """
 GAP_OFFSET: Final = (
     0.06 * INCH
@@ -59,17 +60,18 @@ WIND_UP: Final = 0.2
 measured time is .1 s.
 """
 DRIVEN: Final = 0.2 * INCH
-"""A screw that has advanced by this distance (m), four turns, shows its running torque."""
+"""A screw shows its running torque when it has advanced by this distance (m), which is four turns."""
 PLATEAU: Final = 1.0
 """Time (s) for which a torque must last to show that the motor is held fast: the time of three turns at driving speed.
 Our choice.
 """
 HELD_FAST: Final = 0.3
-"""A torque above this fraction of the requested torque shows that the motor is held fast, if the hand does not advance.
+"""If the hand does not advance, a torque above this fraction of the requested torque shows that something holds the
+motor fast.
 
-For 42 ounce-inches this is .09 N m. A turning screw takes .02 N m. A bit that slips on a head while the hand presses
-with 22 ounces takes at most .025 N m, even if this whole force causes friction at the edge of the head. Five times the
-noise of the current adds .04 N m.
+If the program requests 42 ounce-inches, this limit is .09 N m. A turning screw takes .02 N m. A bit that slips on a
+head while the hand presses with 22 ounces takes at most .025 N m, even if this whole force causes friction at the edge
+of the head. Five times the noise of the current adds .04 N m.
 """
 CURRENT_NOISE: Final = 0.008  # N m, of a reading: twice the stated noise of the current
 
@@ -113,8 +115,8 @@ def kept_apart(gap: float, goal: float) -> bool:
 
 
 def stood_still(change: float, driven: float) -> bool:
-    """Return True if the gap has not changed although the motor drove the fingers together by more than the error of
-    the gap (all in m).
+    """Return True if the gap has not changed although the motor has been driven far enough to close the gap by more
+    than GAP_ERROR. `change` and `driven` are in m.
     """
     return driven > GAP_ERROR and abs(change) < GAP_NOISE
 
@@ -129,17 +131,18 @@ SKEW: Final = 1e-3
 turn of 2 degrees changes the gap by .9 mm.
 
 An object that is grasped again lies straighter, and CENTER holds it only lightly. An object that was pushed against
-blocks lies more askew. Measured: on pins, the gap closed by .5 mm. On the base of the pump, it closed by .8 mm and
-widened by .44 mm in the worlds of seeds 1 to 6; in the world of seed 1001, it widened by more than .5 mm.
+blocks lies more askew. We measured these changes. On pins, the gap closed by .5 mm. On the base of the pump, in the
+worlds of seeds 1 to 6, the gap closed by up to .8 mm or widened by up to .44 mm. In the world of seed 1001, it widened
+by more than .5 mm.
 """
 OFF_MIDDLE: Final = 3e-3
 """Permitted distance (m), along the line of the fingers, between an object and the middle of the fingers when they
 close on the object again.
 
 An object that was carried and set down may have slid in the grip by SKEW and turned by 2 degrees. At a grasp 57 mm
-from that grip, as on the walls of the pump base, the turn is a displacement of 2 mm. Measured over eight pumps: at
-most 1.8 mm on these walls, and 1.0 mm elsewhere (from play in a hole or rack, and compliance of the arm while it
-held the object).
+from that grip, as on the walls of the pump base, the turn is a displacement of 2 mm. In eight pumps, the measured
+displacement was at most 1.8 mm on these walls, and 1.0 mm elsewhere (from play in a hole or rack, and compliance of
+the arm while it held the object).
 """
 
 
@@ -168,7 +171,7 @@ def as_before(gap: float, kept: float, closer: float = SKEW, wider: float = SAME
 
 
 def too_early(gap: float, kept: float) -> bool:
-    """Return True if closing fingers touch at a much wider gap (m) than in the earlier hold. The object then does not
-    lie in the middle of the hand.
+    """Return True if a finger touches an object at a gap (m) that is much wider than the gap at which the hand held
+    the object before. The object then does not lie in the middle of the hand.
     """
     return gap - kept > 2 * OFF_MIDDLE

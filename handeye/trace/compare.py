@@ -60,7 +60,7 @@ def first_difference(a: Trace, b: Trace, *, events: int | None = None, unseen: i
 
 
 def _begin_alike(a: Trace, b: Trace) -> bool:
-    """Return True if two runs begin in the same way, apart from processor and versions."""
+    """Return True if two runs begin in the same way. Their processors and versions may differ."""
     return a.head.made_alike == b.head.made_alike
 
 

@@ -80,8 +80,8 @@ class Journal:
         self._write(event)
 
     def undone(self, events: int, time: float, why: Literal["back", "resumed"]) -> None:
-        """Record that all later events were undone. `events` is the number of events that remain. If the disk is full
-        now, the record is written later, before the next event.
+        """Record that all events except the first `events` were undone. If the disk is full now, the record is written
+        later, before the next event.
         """
         self.append(WentBack(time=time, events=events, why=why))
 

@@ -20,7 +20,7 @@ NO_VECTOR: Final = (np.nan, np.nan, np.nan)
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False, repr=False)
 class Forces(Brief):
-    """The force that the hand exerts on its surroundings, and the guard that watches it, in n servo periods.
+    """The force that the hand exerts on its surroundings in n servo periods, and the guard of the motion.
 
     Vectors are in the axes that the task names (`AnyTask.force_axes`). The program estimates forces only during
     guarded and compliant motions, relative to the force at the beginning of the motion. In all other periods

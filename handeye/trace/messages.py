@@ -84,7 +84,9 @@ class FramesMessage:
     def _empty(
         self, which: tuple[int, ...]
     ) -> tuple[FrameTransforms, list[tuple[Timestamp, Vector3, Quaternion]]]:
-        """Return a message about the given frames, with the objects that must be filled in for each frame."""
+        """Return a message about the given frames. Also return, for each frame, the objects for its time, position and
+        rotation. The caller fills these objects in.
+        """
         names = (self._names[number] for number in which)
         frames = [FrameTransform(parent_frame_id=WORLD, child_frame_id=name) for name in names]
         message = FrameTransforms(transforms=frames)

@@ -20,8 +20,8 @@ class Difference(Record, frozen=True, kw_only=True):
     pairs: int
     more: float  # Median, over the pairs, of the value in this batch minus the value in the first batch
     p: float
-    """Two-sided p-value of Wilcoxon's signed-rank test: if neither batch is better, the probability that the
-    differences favour one of the batches at least as strongly as here.
+    """Two-sided p-value of Wilcoxon's signed-rank test. If neither batch were better, differences that favour one
+    batch at least as strongly as the measured differences would occur with the probability `p`.
     """
 
 
@@ -50,8 +50,9 @@ class PairedTrial(NamedTuple):
 
 
 def paired(names: Sequence[str], batches: Sequence[Batch]) -> tuple[PairedBatch, ...]:
-    """Compare each further batch with the first one. Raises InvalidInput if a batch is of another kind, or was
-    run in other worlds."""
+    """Compare each later batch with the first batch. Raises InvalidInput if a later batch is of another kind than the
+    first, or if the same seeds give other worlds in it.
+    """
     first_head = batches[0][0]
     for name, (head, _) in zip(names, batches, strict=True):
         if head.kind != first_head.kind:

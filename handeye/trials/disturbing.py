@@ -115,7 +115,7 @@ def disturbed(plan: Plan, world: WorldSpec, camera: str, name: str) -> Disturban
 
 
 def _built(runner: Runner, plan: Plan, change: Disturbance) -> bool:
-    """Execute the plan as far as the disturbance requires. Returns True if that succeeded."""
+    """Execute the plan as far as the disturbance requires. Returns True if this part of the plan succeeded."""
     stages = plan.program.stages
     number = len(stages) if change.after is None else change.after
     pause = advance(

@@ -16,7 +16,8 @@ class EyeRow(TrialRow, frozen=True, kw_only=True):
     """One attempt of a trial."""
 
     attempt: dict[str, Any] = msgspec.field(default_factory=dict)
-    """The values of the attempt, by the field names of the trial's class for attempts."""
+    """The values of the attempt. The keys are the field names of the class that describes the attempts of this trial.
+    """
     came: str = "missed"
     told: str = ""
 

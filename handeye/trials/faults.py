@@ -29,7 +29,7 @@ from handeye.trials.sweep import Case, Sweep, TrialRow
 Outcome = Literal["recovered", "stopped", "misnamed", "unnoticed", "unbraked", "silent"]
 """The outcome of a run with a fault.
 
-- recovered: the work is right, and the fault may remain unnoticed
+- recovered: the work is right, and the program need not notice the fault
 - stopped: by an error that names the fault, in a correct stage, and with the brakes on
 - misnamed: stopped, but by another error or in another stage
 - unnoticed: the work is right, but the fault should have been noticed
@@ -47,7 +47,7 @@ PANIC: Final = FaultKind(
     usual_stage=4,
     expected=ExpectedDetection(calls=("stopped by the panic button; the brakes are set",)),
 )
-"""The panic button, which is listed here although it is no fault of a cell."""
+"""The panic button. It is listed here although it is not a fault of the cell."""
 
 
 def with_panic(catalogue: Catalogue) -> Catalogue:
@@ -62,7 +62,7 @@ class PanicInStage(Observer):
     """Presses the panic button once, a number of servo periods after a stage has begun."""
 
     def __init__(self, stage: int, periods: int = SOON) -> None:
-        """Wait for the stage with this index."""
+        """Press the button `periods` servo periods after the stage with the index `stage` has begun."""
         self._stage, self._left = stage, periods
         self._runner: Runner | None = None
         self._under_way = self._hit = False
@@ -139,8 +139,8 @@ class FaultWork:
     faults: Mapping[str, Fault]
     camera: str
     sound: Path | None = None
-    """Folder of the fault-free runs. If a fault begins with a later stage, the run with this fault starts from a
-    checkpoint of a fault-free run. If the folder is None, every run starts at its beginning.
+    """Folder of the fault-free runs. If a fault begins with a stage after the first, the run with this fault starts
+    from a checkpoint of a fault-free run. If the folder is None, every run starts at its beginning.
     """
 
     def __call__(self, case: Case) -> list[FaultRow]:
@@ -172,8 +172,9 @@ class FaultWork:
 def usual(
     catalogue: Catalogue, kinds: Sequence[FaultKind], stage: int | None, stages: int
 ) -> dict[str, Fault]:
-    """Return the faults at their usual sizes. The keys are the faults in the form in which users type them. Faults
-    that can begin during a run begin with `stage`; `stages` is the number of stages of the program.
+    """Return the faults at their usual sizes. The keys are the faults in the form in which users type them. If a fault
+    can begin during a run, it begins at the stage `stage` or, if `stage` is None, at the usual stage of the fault.
+    `stages` is the number of stages of the program.
     """
     first = [None if kind.from_start else stage or min(kind.usual_stage or 0, stages) for kind in kinds]
     found = [kind.usual(each or None) for kind, each in zip(kinds, first, strict=True)]
@@ -218,7 +219,7 @@ def _named(expected: ExpectedDetection, result: Result) -> bool:
 
 def _placed(expected: ExpectedDetection, result: Result) -> bool:
     """Return True if the run stopped in one of the stages in which the fault is expected to be detected. Also return
-    True if the run was not stopped, or if no stages are expected.
+    True if the run was not stopped, or if `expected` names no stages.
     """
     return not expected.stages or result.stopped_at is None or result.stopped_at in expected.stages
 
@@ -251,7 +252,7 @@ FAULTS: Final = Sweep(
         "recovered": "right", "stopped": "right", "misnamed": "wrong",
         "unnoticed": "silent", "unbraked": "silent", "silent": "silent",
     },
-    success="recovered, or stopped and named correctly",
+    success="recovered, or stopped with the right fault named",
     noun="fault",
     sentence=_sentence,
     summary=_summary,

@@ -19,12 +19,12 @@ class Rate(Record, frozen=True, kw_only=True):
 
     successes: int
     trials: int
-    rate: float | None  # Successes over trials; None, as the bounds: nothing was tried
+    rate: float | None  # Successes over trials; None, like the bounds, if nothing was tried
     wilson95: tuple[float, float] | None
     """Wilson's score interval. In about 95 of 100 batches, the interval contains the true probability."""
     p_s: float | None
-    """Lower bound of the one-sided 95 % confidence interval of the probability (Clopper and Pearson). If the
-    probability were equal to this bound, a batch would have this many successes or more with a probability of 5 %.
+    """Lower bound of the one-sided 95 % confidence interval of the probability (Clopper and Pearson). If the true
+    probability were equal to this bound, 5 % of such batches would have at least as many successes as this batch.
     """
 
 

@@ -57,7 +57,7 @@ _NAMES: Final = {
     "on_stop": "answers of the operator",
     "simulated_limit_s": "limit of simulated time", "versions": "versions", "code": "program",
 }  # fmt: skip
-"""Names of the fields of a head, for messages."""
+"""The words that messages use for the fields of a batch's head."""
 
 
 class Head(Record, frozen=True, kw_only=True):
@@ -67,8 +67,8 @@ class Head(Record, frozen=True, kw_only=True):
     version: Literal[2] = 2
     kind: str
     world: WorldSpec
-    """The world of trial 0. The seed of trial k is the seed of this world plus k. This does not hold if `seeds` gives
-    the seeds, or if several trials share a world.
+    """The world of trial 0. The seed of trial k is the seed of this world plus k, unless `seeds` gives the seeds or
+    several trials share a world.
     """
     seeds: tuple[Seed, ...] = ()  # Seeds of the trials, if they are not consecutive
     plan: str = ""  # Digest of the plan; empty: there is none
@@ -116,7 +116,9 @@ class BatchFolder(Generic[R]):
     def __init__(
         self, path: Path, sweep: Sweep[R], head: Head, plan: Plan | None = None, *, anew: bool = False
     ) -> None:
-        """Begin or continue a batch. If `anew` is True, delete the old batch first. Raises InvalidInput."""
+        """Begin or continue a batch. If `anew` is True, delete the old batch first. Raises InvalidInput if the folder
+        cannot be used.
+        """
         self.path, self._sweep = path, sweep
         _check(path, sweep, head, plan, anew=anew)
         try:

@@ -292,7 +292,9 @@ GENTLE: Final = 20.0  # N; an insertion with a greater peak is not gentle
 
 
 class Setting(Record, frozen=True, kw_only=True):
-    """A condition with its search step, and the number of pins that were inserted gently."""
+    """A condition with its search step, its number of trials, and the number of trials whose peak force was at most 20
+    N.
+    """
 
     condition: str
     step_in: float | None  # Step of the search

@@ -99,8 +99,8 @@ def sound_run(folder: Path, of: Setup, world: WorldSpec, every: int | None = EVE
 def _begun(store: CheckpointStore, stages: Sequence[str]) -> Iterator[tuple[int, int]]:
     """Yield each number of steps after which a schedule can begin, together with the number of the stage.
 
-    If the program has only one stage, no schedule begins near its end, because a resumed run may have to undo
-    its work.
+    If the program has only one stage, no schedule begins near the end of the program, because a resumed run may have
+    to undo the work of the stage.
     """
     heads = [head for _, head in store.heads()]
     last = max(head.position for head in heads) - (NEAR_END if len(stages) < 2 else 0)

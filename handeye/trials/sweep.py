@@ -25,12 +25,14 @@ if TYPE_CHECKING:
 Ended = Literal[
     "ended", "raised", "machine", "killed", "simulated limit", "processor limit", "wall limit", "not built"
 ]
-"""How a trial ended: by itself; by an exception; because this computer lacked memory or could not open a file;
-because its process was killed; at a limit of simulated time, of CPU time, or (in older batches) of wall-clock
-time; or because the work that the trial needs was not built.
+"""How a trial ended. `ended`: by itself. `raised`: by an exception. `machine`: this computer lacked memory or could
+not open a file. `killed`: the trial's process was killed. The three limits: the trial reached a limit of simulated
+time, of CPU time, or (in older batches) of wall-clock time. `not built`: the work that the trial needs was not built.
 """
 Standing = Literal["right", "wrong", "silent", "uncounted"]
-"""The class of an outcome: success; failure; failure that the program reported as a success; not counted."""
+"""The class of an outcome. `right`: success. `wrong`: failure. `silent`: a failure that the program reported as a
+success. `uncounted`: the trial does not count.
+"""
 
 FAILED: Final = "failed"  # Outcome of a trial that did not finish
 GRACE: Final = 1.1
@@ -39,8 +41,8 @@ not check the limit.
 """
 _CAME_TO_AN_END: Final = ("ended", "not built")
 _OF_THE_MACHINE: Final = ("machine", "killed", "processor limit", "wall limit")
-"""The ways in which this computer, and not the program, ends a trial. If such a trial is repeated, it may end
-differently.
+"""The ways in which this computer, and not the program, ends a trial. A trial that this computer ended may end
+differently when it is repeated.
 """
 _BROKEN_OFF: Final[Mapping[str, str]] = {
     "killed": "its process was killed twice",
@@ -198,10 +200,11 @@ class Sweep(Generic[R]):
     """Further entries for the JSON."""
     details: Callable[[Sequence[R]], Sequence[Details]] = field(default=lambda _: ())
     work: "Callable[[Case], Sequence[R]] | None" = None
-    """Executes the trials of a case, if this kind has no options. A kind without options needs no command of its own.
+    """The function that executes the trials of a case, if trials of this kind have no options. A kind without options
+    needs no command of its own.
     """
     shared_worlds: bool = False
-    """True if several trials share a world, so that the seed of a trial does not follow from its number."""
+    """True if several trials share a world. The number of a trial then does not determine the seed of its world."""
 
     def standing(self, row: R) -> Standing:
         """Say how a trial's outcome counts: as a success, as a failure, as a silent failure, or not at all."""
@@ -209,8 +212,8 @@ class Sweep(Generic[R]):
 
 
 Work = Callable[[Case], Sequence[R]]
-"""Executes the trials of a case. The function is sent to other processes. If it raises an exception, the exception is
-recorded as the end of the trials.
+"""A function that executes the trials of a case. The function is sent to other processes. If the function raises an
+exception, the exception is recorded as the end of the trials.
 """
 
 
@@ -239,7 +242,7 @@ def lost(row: type[R], case: Case, **fields: object) -> list[R]:
 
 
 Engine = Callable[[GuardedWork[Any], Sequence[Case]], Generator[Answer[Case, list[Any]], None, None]]
-"""Executes cases in any order. A case whose process is lost is repeated once."""
+"""A function that executes cases in any order. If the process of a case is lost, the function repeats the case once."""
 
 
 def processes(jobs: int, cpu_limit_s: float | None = None) -> Engine:

@@ -14,7 +14,7 @@ from handeye.trials.figures import ConditionFigures, Figures
 from handeye.trials.sweep import R, Sweep, percent
 
 NARROWEST: Final = 80
-"""Width of the tables, in columns; a narrower terminal wraps lines without losing text."""
+"""Least width of the tables, in columns. A narrower terminal wraps the lines, so no text is lost."""
 
 
 class PlainTable(Table):

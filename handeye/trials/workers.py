@@ -27,7 +27,7 @@ SHORTEST_LIMIT_S: Final = 1e-6  # Shortest limit that a system distinguishes fro
 
 
 class WorkerLost(HandeyeError):
-    """Raised if the process of a trial was killed, and killed again when the trial was repeated."""
+    """Raised if the process of a trial was killed, the trial was repeated, and the new process was killed too."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -164,7 +164,7 @@ def deaf_to_interrupts() -> Iterator[None]:
 
 
 def _heard(workers: list[Worker]) -> list[Worker]:
-    """Wait for workers that have answered or were lost, and return them."""
+    """Wait until at least one worker has answered or is lost. Return these workers."""
     busy = [worker for worker in workers if worker.given is not None]
     told = connection.wait([worker.here for worker in busy])
     return [worker for worker in busy if worker.here in told]

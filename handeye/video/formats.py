@@ -46,10 +46,11 @@ def webp(frames: Frames, held: int) -> bytes:
 
 
 def settled(frames: Frames) -> Frames:
-    """Yield frames in which a block of pixels changes only if it differs enough from the block that is shown.
+    """Yield the frames with small changes held back: each block of pixels stays as it was last shown until it
+    differs enough from that.
 
-    libwebp leaves out blocks that resemble the blocks of the frame before. Without this function, slow changes would
-    never be shown.
+    libwebp leaves out blocks that resemble the blocks of the previous frame. Without this function, slow changes
+    would never be shown.
     """
     shown = next(frames)
     yield shown
@@ -59,7 +60,7 @@ def settled(frames: Frames) -> Frames:
 
 
 def _changed(frame: Photograph, shown: Photograph) -> NDArray[np.bool_]:
-    """Return the mask of the pixels in blocks that differ enough, shape (height, width)."""
+    """Return a mask, shape (height, width), of the blocks in which the two pictures differ by more than `_ALIKE`."""
     height, width = frame.shape[:2]
     rows, columns = -(-height // _BLOCK), -(-width // _BLOCK)
     differs = np.zeros((rows * _BLOCK, columns * _BLOCK), dtype=bool)
@@ -201,7 +202,7 @@ FORMATS: Final = {
     ),
 }
 REFUSED: Final = {
-    (".gif",): "a GIF would be seven times as large, with only 256 colours",
-    (".png", ".apng"): "an animated PNG would be twenty times as large",
+    (".gif",): "a GIF would be seven times as large as a WebP picture, with only 256 colours",
+    (".png", ".apng"): "an animated PNG would be twenty times as large as a WebP picture",
     (".m4v", ".mov"): "this format is not supported; an .mp4 holds the same H.264 video",
 }

@@ -56,7 +56,7 @@ def _pictures(trace: Trace) -> dict[float, SeenPicture]:
 
 
 def _without_waits(trace: Trace, span: Span) -> Iterator[Span]:
-    """Yield the parts of a span between the waits for the camera."""
+    """Cut the waits for the camera out of a span, and yield what remains of it."""
     begin, end = span
     for event in trace.events:
         if isinstance(event, CameraBusy) and event.seconds > MAX_WAIT_S:

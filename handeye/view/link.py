@@ -1,4 +1,4 @@
-"""Links the thread that executes a run with the server: lines for the run, and messages from the run."""
+"""Passes lines from the server to the thread that executes a run, and messages from this thread to the server."""
 
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager
@@ -40,7 +40,7 @@ class Link:
     # -- the side of the run --------------------------------------------------------------------------
 
     def lines(self, aside: Callable[[], AbstractContextManager[None]]) -> Iterator[str]:
-        """Yield lines for a paused run. Each pause resets the panic button."""
+        """Yield the lines that viewers send to a paused run. Each pause resets the panic button."""
         while True:
             self._set_going(False)
             with aside():

@@ -110,7 +110,9 @@ def _viewer(face: Face, *, seen: bool) -> Markup:
         aria_label="the live cell; the arrow keys turn the view, and the keys + and - zoom",
     )  # fmt: skip
     figures = element("p", id="figures", class_="caption")
-    axes = element("ul", id="axes", aria_label="joints of the arm, between their limits", hidden=True)
+    axes = element(
+        "ul", id="axes", aria_label="positions of the arm's joints between their limits", hidden=True
+    )
     views = element("div", id="views", role="group", aria_label="view", class_="views")
     senses = element("canvas", id="senses", class_="senses", aria_hidden="true")
     view = (

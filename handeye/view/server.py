@@ -59,8 +59,8 @@ class Viewer:
 
 
 class Server:
-    """Serves one run while the server's context is entered. The server takes its port when it is created, so that a
-    port in use is reported immediately.
+    """Serves one run, from the call of `show` until the server's context is left. The server takes its port when it is
+    created, so that a port in use is reported immediately.
     """
 
     def __init__(self, link: Link, port: int = 0) -> None:

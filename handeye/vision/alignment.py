@@ -15,8 +15,8 @@ from handeye.ports.camera import Picture
 
 MAX_SHIFT: Final = 4  # points, both along and across the lines
 CHANGED: Final = 3.0
-"""If a point differs by this number of levels, it counts as fully changed. Greater differences are replaced by this
-value.
+"""If a point differs between the two pictures by this number of grey levels, it counts as fully changed. Greater
+differences are replaced by this value.
 """
 AREA: Final = 11  # side of a square, points
 QUIET: Final = 1.2  # levels; a square with a smaller mean difference has not changed

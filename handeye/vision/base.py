@@ -1,5 +1,5 @@
-"""Locates a part with large round holes in two stages: general location by its outline, then specific location by
-its holes.
+"""Locates a part that has large round holes. The first stage is general location by the outline of the part; the
+second is specific location by its holes.
 
 The part stands upright in a given region, on a darker background, turned by at most 50 degrees from its planned
 orientation. The height of the part is known, so one picture is enough: rays through the holes are intersected with the

@@ -13,8 +13,8 @@ from handeye.core.pose import Array
 from handeye.vision.scan import Scan
 
 SPAN: Final = 3
-"""Number of points averaged on either side of an edge. Averages of 2 points are too noisy if the noise is one
-level.
+"""Number of points averaged on either side of an edge. Averages of 2 points are too noisy if the noise of the picture
+is one grey level.
 """
 
 BRIGHTER: Final = 1
@@ -140,7 +140,7 @@ def _account(
     across: NDArray[np.intp] | None,
     ends: NDArray[np.intp],
 ) -> None:
-    """Record the points that beams have read."""
+    """Record in `scan` which points the beams have read."""
     looked = usable & (np.arange(where.shape[1]) < ends[:, None])
     read = where[looked]
     scan.account(read)

@@ -35,8 +35,8 @@ class BoundingBox(NamedTuple):
     def with_piece(self, other: "BoundingBox") -> "BoundingBox | None":
         """Return the box around this box and another. Returns None if the two cannot be pieces of one blob.
 
-        A face in the shade may divide a lit blob into pieces. Two such pieces lie side by side. They are separated by
-        no more than the length of the smaller piece, and the larger piece is most of the blob.
+        A dark face, in the shade, may divide a lit blob into pieces. Two such pieces lie side by side. They are
+        separated by no more than the length of the smaller piece, and the larger piece is most of the blob.
         """
         around = BoundingBox(
             *np.minimum(self[:2], other[:2]).tolist(), *np.maximum(self[2:], other[2:]).tolist()
@@ -65,7 +65,7 @@ def localise(
     *,
     whole: bool = True,
 ) -> BoundingBox | None:
-    """Find a blob as `door.localise` does. After the call, `scan` still has the window.
+    """Find a blob as `door.localise` does. The window remains set in `scan` after the call.
 
     If `whole` is False, a blob is also accepted if the window cuts it off or a shadow divides it in two.
     """
@@ -153,14 +153,16 @@ class _Side:
         """`side` is the index of the side among the four numbers of a box."""
         self.number, self.upright, self.backwards = side, side % 2 == 0, side < 2
         self._clear: tuple[int, int, int] | None = None
-        """A line and a range on it. Farther out than this range, only background was found."""
+        """The last search that found only background: the line from which it looked outwards, and the first and last
+        place of the search on this line.
+        """
         self._image, self._read = self._turned(scan.image), self._turned(scan.read)
         across, along, offset = scan.sides.T
         self._window = list(zip(*self._turned_window(across, along, offset), strict=True))
 
     def moves(self, box: list[int], threshold: float) -> bool:
-        """Find a line somewhat farther out that crosses the blob, and move the side to the end of the blob beyond this
-        line. Returns False if no such line crosses the blob.
+        """Find a line that crosses the blob somewhat outside this side of the box, and move the side to the end of the
+        blob beyond this line. Returns False if no such line crosses the blob.
         """
         line = self._line(box[self.number])
         low, high = (box[1], box[3]) if self.upright else (box[0], box[2])
@@ -185,14 +187,16 @@ class _Side:
         return turned[::-1] if self.backwards else turned
 
     def _line(self, place: int) -> int:
-        """Convert the number of a picture row or column to a line number of this side, or back."""
+        """Convert the number of a picture row or column to a line number of this side, or a line number to a row or
+        column.
+        """
         return len(self._image) - 1 - place if self.backwards else place
 
     def _turned_window(
         self, u: Array, v: Array, offset: Array
     ) -> tuple[list[float], list[float], list[float]]:
-        """Return the sides of the window as this side of the box sees them: the increment per line outwards, the
-        increment per point along the line, and the offset.
+        """Return the sides of the window in the coordinates of this side of the box. The three lists have, for each
+        side of the window, the increment per line outwards, the increment per point along the line, and the offset.
         """
         outwards, along = (u, v) if self.upright else (v, u)
         if self.backwards:
@@ -214,8 +218,8 @@ class _Side:
         return low, high
 
     def _means(self, first: int, last: int, low: int, high: int) -> NDArray[np.float32]:
-        """Return the mean intensities of squares of SPAN points about lines `first` to `last`, shape (lines,
-        places).
+        """Return the mean intensities of squares with sides of SPAN points, whose middles are on the lines `first` to
+        `last`, shape (lines, places).
         """
         slab = self._image[first - 1 : last + 2, low : high + 1]
         wide = slab[:-2] + slab[1:-1]

@@ -43,7 +43,7 @@ SIGHT_ERROR: Final = 0.13 * INCH  # .1 in of the arm, and .07 deg of the potenti
 3).
 """
 MIN_SIGHTINGS: Final = 6
-"""Least number of sightings for each lens. With fewer, the priors dominate; 12 to 20 are good."""
+"""Least number of sightings for each lens. With fewer sightings, the priors dominate; 12 to 20 sightings are good."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -111,7 +111,7 @@ def calibrate(sightings: Sequence[Sighting], drawing: CameraModel) -> Calibratio
 
 
 def moved(drawing: CameraModel, x: Array) -> CameraModel:
-    """Change the parameters of the design by `x`, given in units of the priors."""
+    """Change the parameters of the design by `x`, given in standard deviations of the priors."""
     mount = np.array(drawing.mount) + x[:3] * PLACE_PRIOR
     lenses = tuple(
         replace(

@@ -56,8 +56,8 @@ class CameraModel:
     view of the camera.
 
     The parameters (mount, two zero errors, roll, focal scale and offset of each lens) are the parameters that the
-    researchers used for this cell. Unlike a 3x4 collineation matrix, these parameters stay valid for other aims and
-    lenses.
+    researchers at Stanford used for their cell. Unlike a 3x4 collineation matrix, these parameters stay valid for
+    other aims and lenses.
     """
 
     mount: tuple[float, float, float]  # crossing of pan and tilt axes in W, m

@@ -148,8 +148,8 @@ def _chord(
 def rim(
     scan: Scan, centre: tuple[float, float], step: float, reach: float, *, rays: int = RAYS, beyond: float = 0.0
 ) -> Array:  # fmt: skip
-    """Find border points (u, v) around a centre, using wide beams. Returns shape (`rays`, 2), in order of angle,
-    with NaN for a beam that finds no edge.
+    """Find border points (u, v) around a centre, using wide beams. Returns an array of shape (`rays`, 2), in order of
+    angle, with NaN for a beam that finds no edge.
     """
     borders = rims(
         scan, np.array([centre]), step, np.array([reach]), rays=rays, inner=np.zeros(1), wide=True, beyond=beyond

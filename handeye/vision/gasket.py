@@ -3,7 +3,7 @@
 In the difference of the pictures the gasket is a bright blob with two dark holes. There is little difference wherever
 the base or the gasket has a hole. If the gasket is displaced, each dark hole in the difference is therefore the
 *union* of a hole of the gasket and the hole of the base below it. The centre of the union moves by only half the
-displacement, but its border moves on one side by all of the displacement. Therefore both the centre and the rim are
+displacement, but its border moves on one side by all of the displacement. Therefore both the centre and the border are
 tested. If the gasket is in its place, `gasket_sheet` checks that the gasket is whole.
 """
 
@@ -45,9 +45,9 @@ the three values below are from the vision study, section 4.
 BESIDE: Final = 0.3 * INCH  # distance (m) from a hole's border to where the difference is measured
 BEFORE_STEP: Final = 0.38
 BRIGHT: Final = 0.65
-"""Both constants apply to the picture that was taken before the gasket was laid. In that picture, a step of intensity
-is a border if it exceeds BEFORE_STEP times the contrast, and a point belongs to the face if its intensity exceeds
-BRIGHT times that of the face.
+"""BEFORE_STEP and BRIGHT apply to the picture that was taken before the gasket was laid. In that picture, a step of
+intensity is a border if it exceeds BEFORE_STEP times the contrast. A point belongs to the face if its intensity
+exceeds BRIGHT times the intensity of the face.
 """
 ROUNDS: Final = 2  # searches for the base's largest hole, each starting from the previous one
 RAYS: Final = 32
@@ -58,8 +58,8 @@ wider than the part that an aligning pin hides.
 CLEAR: Final = 0.06 * INCH
 """A border point of the base counts only if it lies within this distance (m) of the apparent circle of the hole.
 
-The apparent size depends on the scale of the camera, which may be off by 5 % (in the world of seed 54010 at the
-high level).
+The apparent size of the hole depends on the scale of the camera, which may be off by 5 % (in the world of seed 54010
+at the high level).
 """
 
 
@@ -144,9 +144,9 @@ def _as_seen(old: Scan, view: View, part: Part, places: Array) -> Array:
     """Return the positions of the base's holes (in metres, shape (2, 3)), corrected by the position error of the
     largest hole in the picture without the gasket.
 
-    The aim of the mount may differ from the readings of its potentiometers by more than the width of a hole's border,
-    while the arm knows the position of the base more precisely. If the hole is not found, the positions are not
-    corrected.
+    The aim of the mount may differ from the readings of its potentiometers by more than the width of a hole's border.
+    But the arm knows the position of the base to within less than this width. If the hole is not found, the positions
+    are not corrected.
     """
     for _ in range(ROUNDS):
         steps = _base_steps(old, view, places[0], part.holes[0])
@@ -253,9 +253,9 @@ def _bulge(new: Scan, old: Scan, view: View, centre: Array, hole: Hole, steps: _
     """Measure the bulge (m) of the border in the difference, around the base's hole at `centre` (in metres, shape
     (3,)).
 
-    The bulge is measured from the median radius of the border, because half of the border of a union of two discs is
-    nearly undisturbed. A ray counts only if the border of the base's hole is visible on it in the picture without the
-    gasket, because an aligning pin may hide the border.
+    The border is that of a union of two discs. Half of this border is nearly undisturbed, so the bulge is measured
+    from the median radius. A ray counts only if the border of the base's hole is visible on it in the picture without
+    the gasket, because an aligning pin may hide the border.
     """
     radii, (middle, reach) = [], _seen(view, centre, hole)
     for scan, step, beyond in ((old, steps.before, steps.face), (new, steps.after, 0.0)):

@@ -145,8 +145,9 @@ SEARCHES: Final = (
     HoleSearch(5, True, 0.20),
     HoleSearch(5, True, 0.20, face=0.4),
 )
-"""Searches, in the order in which they are tried. Starting with a small contrast would find more false holes. The last
-search is for pictures in which the shadow of the arm falls across the face. The vision study had no such pictures.
+"""Searches, in the order in which they are tried. The searches for a large contrast come first, because a search for a
+small contrast finds more false holes. The last search is for pictures in which the shadow of the arm falls across the
+face; the vision study had no pictures of this kind.
 """
 
 
@@ -167,7 +168,7 @@ class Levels(NamedTuple):
 
     def step(self, search: HoleSearch) -> float:
         """Return the least step of intensity at an edge: the fraction `contrast` of the difference between the face
-        and a hole, but at least two levels, which are a few times the noise.
+        and a hole, or two levels (a few times the noise) if two levels are more.
         """
         return max(2.0, search.contrast * (self.face - self.dark))
 

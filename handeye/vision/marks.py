@@ -1,4 +1,4 @@
-"""Marks in picture points that show the findings in a picture.
+"""Marks that show the findings in a picture. Their coordinates are in picture points.
 
 The box of general location is white. Each hole has a red cross and a yellow box, and a red line joins the centres of
 the two holes. The line of the first grasp is blue. Picture 10 of the paper shows the line between the holes and the

@@ -21,31 +21,31 @@ from handeye.vision.base import Failure, PartMatch, silhouettes
 from handeye.vision.camera_model import View, in_picture
 
 MOVED: Final = 0.03 * INCH
-"""Greatest apparent movement (m) of a part that still counts as no movement.
+"""Largest apparent movement (m) of a part; up to this value, the part counts as unmoved.
 
 From one picture to the next, a pump at rest seems to move by .02 to .07 mm. A pump that is pushed against its blocks
-moves by .13 to .16 mm (worlds of seeds 3 and 15 at the nominal level). If a base is .05 in away from its place, the
-base is wrong (reference test 59).
+moves by .13 to .16 mm (worlds of seeds 3 and 15 at the nominal level). The limit must be below .05 in, because a base
+that is .05 in away from its place is wrong (reference test 59).
 """
 SPOT: Final = 5  # side of a square, points: a screw head is about as large
 DIFFERENT: Final = 1.6
 """Mean difference in a square, in levels of the smoothed pictures, above which the centre of the square counts as
 changed.
 
-The noise of two pictures gives a mean of .3 (median of 17,500 squares). If the pump is at rest, or was pushed by
-up to .15 mm, the greatest such mean in a pair of pictures has a median of .88. The maximum was 1.06 in 90 pairs (seed
-15, OpenGL), and 1.08 in 36 pairs by ray casting. The greatest of many values has a Gumbel distribution, here of
-location .86 and scale .05, so the limit is reached once in a million pairs. A screw whose head is missing gives
-3.7 to 5.6. A screw that stands 2.5 mm high gives .8 to 2.0, so most such screws are missed; a screw behind the
-crank is not visible at all.
+The noise of two pictures gives a mean of .3 (median of 17,500 squares). For each pair of pictures of a pump that is at
+rest, or was pushed by up to .15 mm, we took the greatest mean of all squares. The median of these values is .88. The
+largest value was 1.06 in 90 pairs (seed 15, OpenGL), and 1.08 in 36 pairs by ray casting. Such values have a Gumbel
+distribution, here of location .86 and scale .05, so the limit is reached once in a million pairs. A screw whose head
+is missing gives 3.7 to 5.6. A screw that stands 2.5 mm high gives .8 to 2.0, so most such screws are missed; a screw
+behind the crank is not visible at all.
 """
 FAINT: Final = 3.3
 """Least contrast (levels) of the earlier picture on the part: the difference between the 10th and the 90th percentile
 of the picture's levels.
 
 Limits in levels mean something only in pictures of about the usual contrast, which is 6.6 to 7.4 levels on a pump
-(five worlds). In such pictures, a missing head gives at least 3.7 levels, so at a contrast of 2.9 levels it would give
-1.6 levels, which is the limit `DIFFERENT`. The rest, from 2.9 to 3.3, is a margin for the noise.
+(five worlds). In such pictures, a missing head gives at least 3.7 levels. At a contrast of 2.9 levels, a missing head
+would thus give 1.6 levels, which is the limit `DIFFERENT`. The rest, from 2.9 to 3.3, is a margin for the noise.
 """
 BESIDE: Final = 12
 """Width (points) of a strip around the part that counts neither as part nor as surroundings.

@@ -95,9 +95,9 @@ def specific_by(name: str, function: Callable[..., Any]) -> Specific:
 
 
 def inspect_by(name: str, function: Callable[..., Any]) -> Inspect:
-    """Wrap a function that returns True if a gasket is in place. The function takes the picture before the gasket was
-    laid, the picture after the gasket was laid, the view, the part under the gasket, and the pose x, y (m), yaw (rad)
-    of this part.
+    """Wrap a function that returns True if a gasket is in place. The function takes two pictures, one taken before and
+    one taken after the gasket was laid. It also takes the view, the part under the gasket, and the pose x, y (m), yaw
+    (rad) of this part.
     """
 
     def inspected(before: Picture, after: Picture, view: View, part: Part, pose: Pose2D) -> GasketInspection:
@@ -122,7 +122,9 @@ def _numbers(name: str, given: object, what: str, count: int) -> tuple[float, ..
 
 
 def _outline(view: View, part: Part, place: tuple[float, float]) -> Array:
-    """Return the corners (u, v) of the part's outline at a place, within the picture, shape (8, 2)."""
+    """Return the corners (u, v) of the part's outline at a place, shape (8, 2). Corners outside the picture are moved
+    to its border.
+    """
     if part.outline is None:
         raise BadArgument("vision needs the outline of a part, but the program gives none")
     (points,) = silhouettes(view, part, place, np.zeros(1))

@@ -53,7 +53,8 @@ def quadrilateral(given: object) -> Array:
     if not ((turns > 0).all() or (turns < 0).all()):
         corners = ", ".join(f"({u:g}, {v:g})" for u, v in found.tolist())
         raise BadArgument(
-            f"the corners of a window must be in order around a convex quadrilateral, which {corners} are not"
+            f"the corners of a window must be in order around a convex quadrilateral, but the corners {corners} are "
+            "not"
         )
     return found
 
@@ -168,8 +169,8 @@ class Scan:
         return back.min(axis=1), nearest
 
     def run(self, u: int, v: int, du: int, dv: int) -> tuple[int, int]:
-        """Return the lengths (points) of one ray within the window, backwards and forwards, or (0, -1) if the start of
-        the ray is outside the window.
+        """Return two lengths (points): how far a ray can extend backwards and forwards from its start within the
+        window. Returns (0, -1) if the start of the ray is outside the window.
         """
         back = ahead = math.inf
         for a, b, c in self._lines:
@@ -183,7 +184,9 @@ class Scan:
         return math.floor(back), math.floor(ahead)
 
     def _heights(self, places: Array) -> Array:
-        """Return the signed distances of places from the sides of the window, not normalised: shape (n, sides)."""
+        """Return the signed distances of places from the sides of the window, shape (n, sides). Each distance is
+        multiplied by the length of the side's normal vector.
+        """
         return np.asarray(places @ self.sides[:, :2].T + self.sides[:, 2])
 
     def levels(self, places: Places) -> NDArray[np.float32]:

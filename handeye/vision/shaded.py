@@ -1,4 +1,4 @@
-"""Locates a part in a shadow, roughly, by its two large holes.
+"""Finds the rough place of a part on which a shadow lies. The part is found by its two large holes.
 
 In a shadow, a part can be as dark as the lit background, and its outline then does not stand out. Its holes are still
 darker than the face around them, because the same shadow lies on both.

@@ -121,7 +121,7 @@ def test_a_folder_that_was_made_for_nothing_is_gone(tmp_path: Path) -> None:
 @pytest.mark.parametrize("word", ["ask", "retry", "retry:0", "", None])
 def test_nobody_is_there_to_be_asked(word: object) -> None:
     with pytest.raises(
-        InvalidInput, match=r"^on_stop must be `abort`, `retry:N` with N of 1 or more, or `unwind`, not "
+        InvalidInput, match=r"^on_stop must be `abort`, `retry:N` \(N is at least 1\) or `unwind`, not "
     ):
         handeye.assemble(script="OPEN 1\n", on_stop=word)
 

@@ -32,7 +32,7 @@ def test_a_run_that_takes_no_time_is_halted_after_its_step() -> None:
 def test_a_run_that_is_halted_while_its_cell_is_prepared_does_not_begin(tmp_path: Path) -> None:
     needs_friction = "STOP [0 0 -25]\nCHANGE [0 0 -1] .1\n"
     with pytest.raises(
-        Refused, match="the run was halted while its cell was being prepared; nothing was begun"
+        Refused, match="the run was halted while its cell was being prepared, so the run did not begin"
     ):
         handeye.begin(needs_friction, task="insertion", out=tmp_path / "run", halt=lambda: True)
     assert not (tmp_path / "run").exists()

@@ -258,7 +258,7 @@ def test_outputs_are_set_by_name_and_kept(bench: Bench) -> None:
 
 def test_two_machines_of_one_name_cannot_be_kept(bench: Bench) -> None:
     machine(bench), machine(bench)
-    with pytest.raises(ValueError, match="need different names; these are clock, both, both"):
+    with pytest.raises(ValueError, match="need different names; the given names are clock, both, both"):
         bench.cell()
 
 

@@ -83,8 +83,8 @@ def test_lines_go_on_as_from_the_state_they_are_put_into() -> None:
 
 
 STATES: dict[str, tuple[str, tuple[DefectState, ...]]] = {
-    "different defects": ("a", ()),
-    "a different size": ("a", (DefectState(seconds=0.0, first=b"abc"),)),
+    "number of saved defects differs": ("a", ()),
+    "the wrong size": ("a", (DefectState(seconds=0.0, first=b"abc"),)),
     "not a finite number": ("a", (DefectState(seconds=0.0, first=np.array(np.nan).tobytes()),)),
     "at an impossible time": ("a", (DefectState(seconds=-1.0),)),
     "impossibly bright": (PICTURE, (DefectState(seconds=0.0, first=bytes([16]) * ROWS * COLUMNS),)),

@@ -544,7 +544,7 @@ def test_a_run_in_trouble_goes_nowhere_but_back(say: Say, runner: Runner) -> Non
     )
     assert (
         say("set saved H 0 0 0")[0].error
-        == "no value can be set where the run has stopped; first go back with `back`"
+        == "no value can be set, because the run cannot continue from here; first go back with `back`"
     )
     assert [answer.position for answer in say("b", "s")] == [1, 2]
 

@@ -166,7 +166,7 @@ def test_a_wait_without_end_or_sense_is_told_and_ends_all_tasks(
 
 
 def test_tasks_have_names_of_their_own() -> None:
-    with pytest.raises(HandeyeError, match=r"^tasks need different names; these are A, A$"):
+    with pytest.raises(HandeyeError, match=r"^tasks need different names; the given names are A, A$"):
         run(Watch(), [periodic(1.0, 1), periodic(1.0, 1)], ["A", "A"])
 
 

@@ -192,8 +192,8 @@ WORDS: list[tuple[c.Cause, str]] = [
     (c.OutsidePicture(), "the part is not in the field of the close picture: is the camera aimed at it?"),
     (
         c.FaintPicture(contrast=1.734, least=3.3),
-        "the earlier picture is too faint to compare: its contrast on the part is 1.7 grey levels, at least 3.3 are "
-        "needed; check camera and light",
+        "the earlier picture is too faint to compare: its contrast on the part is 1.7 grey levels, but at least "
+        "3.3 are needed; check camera and light",
     ),
     (c.NoHoles(blobs=0), "found no hole: is the picture in focus, and is the part in it?"),
     (

@@ -108,7 +108,7 @@ def test_a_kind_that_is_not_known_is_told_with_the_system_it_takes(written: Path
 def test_a_kind_of_another_version_is_told_as_such() -> None:
     with pytest.raises(
         msgspec.DecodeError,
-        match="known here: the events come from another version of handeye or of the system that wrote them",
+        match="known here: the events come from another version of handeye, or from another version of the system ",
     ):
         EventReader("machine").read(b'{"event":"Sneezed","time":1.0}')
 

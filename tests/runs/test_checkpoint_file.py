@@ -165,7 +165,7 @@ def test_only_figures_and_pictures_are_taken_for_arrays(data: bytes, dtype: str)
         (("cell", "mechanisms", "stanford", "q"), [float("nan")] * 6, "not a finite number"),
         (("cell", "mechanisms", "threads", "driven"), 9, "another scene"),
         (("cell", "mechanisms", "clamping"), {"clamped": "yes"}, "not a state of this work cell"),
-        (("cell", "mechanisms"), {}, "different devices"),
+        (("cell", "mechanisms"), {}, "other devices or mechanisms"),
         (("cell", "physics"), ["<f8", [2], b"\0" * 16], "another scene"),
         (("cell", "figures"), {}, "values that change"),
         (("cell", "noise"), "{}", "not a state of this work cell"),

@@ -80,7 +80,7 @@ def test_policies_are_written_in_a_word() -> None:
 def test_another_policy_is_refused_in_a_sentence(text: str) -> None:
     with pytest.raises(
         InvalidInput,
-        match=r"^--on-stop takes abort, ask, retry:N with N of 1 or more, unwind or unwind:STAGE, not .*$",
+        match=r"^--on-stop takes abort, ask, retry:N \(N is at least 1\), unwind or unwind:STAGE, not .*$",
     ):
         parse_policy(text, ())
 

@@ -81,11 +81,12 @@ def test_a_file_is_known_by_how_it_begins() -> None:
     [
         (
             "it.gif",
-            "it.gif: a GIF would be seven times as large, with only 256 colours; use .webp or .webm or .mp4",
+            "it.gif: a GIF would be seven times as large as a WebP picture, with only 256 colours; use .webp or "
+            ".webm or .mp4",
         ),
         (
             "it.APNG",
-            "it.APNG: an animated PNG would be twenty times as large; use .webp or .webm or .mp4",
+            "it.APNG: an animated PNG would be twenty times as large as a WebP picture; use .webp or .webm or .mp4",
         ),
         ("it.mkv", "it.mkv: the name of a video must end in .webp or .webm or .mp4"),
         ("it", "it: the name of a video must end in .webp or .webm or .mp4"),

@@ -19,7 +19,9 @@ TOLERANCE_M: Final = 1e-6
 
 @dataclass(frozen=True, slots=True)
 class AlwaysFails:
-    """A step that can never have its effect. `cause` is the step that is to blame, if any."""
+    """A step that can never have its effect. `cause` is the step that prevents the effect; None if no step prevents
+    it.
+    """
 
     code: str
     step: int
@@ -125,7 +127,7 @@ def _guarded(graph: Graph, kind: GuardKind) -> Iterator[int]:
 
 
 def _pauses(graph: Graph) -> Iterator[AlwaysFails]:
-    """Yield the WAITs that were intended as a delay."""
+    """Yield the WAITs that seem to be intended as a delay."""
     for number, wait in graph.each(Wait):
         if _TIME.fullmatch(wait.message):
             message = "`WAIT` stops the run and calls the operator; it is not a delay"

@@ -41,7 +41,8 @@ def check_flow(graph: Graph, origins: Sequence[Statement]) -> list[Diagnostic]:
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Order:
     """A rule for the order of operations: an operation of the kind `of` makes sense only after an operation of the
-    kind `needs`. If `later` is True, it makes sense only before an operation of the kind `needs`.
+    kind `needs`. If `later` is True, the operation of the kind `of` makes sense only before an operation of the kind
+    `needs`.
     """
 
     code: str
@@ -300,8 +301,8 @@ Circles = Callable[[], list[set[int]]]
 
 
 def stale_rounds(graph: Graph) -> Iterator[StaleRound]:
-    """Yield the jumps that repeat the same round of a search or count, each with the step that restarts the search
-    or count. This step is None if the round contains no MOVE.
+    """Yield the jumps that repeat the same round of a search or count. Each jump comes with the step that restarts the
+    search or count, or with None if the round contains no MOVE.
     """
     circles = cache(graph.circles)  # asked for only where something looks wrong
     searches, moves = set(graph.which(Search)), set(graph.which(Move))
@@ -321,7 +322,7 @@ def stale_rounds(graph: Graph) -> Iterator[StaleRound]:
 def _anew(
     graph: Graph, circles: Circles, jump: int, target: int | None, begins: set[int]
 ) -> Iterator[StaleRound]:
-    """Yield the jump that repeats a round, if every round restarts the search or count. Yield nothing if a path
+    """Yield the jump of a loop in which every round restarts the search or the count. Yield nothing if a path
     without a restart leads from `target` to the end of the program, or back to the jump.
     """
     if graph.leads(target, None, without=begins) or graph.leads(target, jump, without=begins):

@@ -119,8 +119,8 @@ _TOO_FAR = ("search-begun-anew", "count-begun-anew")
 def check_unused(
     script: Script, statements: Iterable[Statement], words: ByWord, used: Used, source: Source
 ) -> Iterator[Diagnostic]:
-    """Report unused names in a script without errors. Taught positions do not count, because another script may use
-    them.
+    """Report the unused names of a script that has no errors. Taught positions do not count, because another script
+    may use them.
     """
     targets = {name.text for name in used[Refers.LABEL]}
     for statement in statements:
@@ -164,8 +164,8 @@ def with_unused(found: list[Diagnostic], unused: list[Diagnostic]) -> list[Diagn
 
 
 def _in_comments(source: Source, refers: tuple[Refers, ...]) -> dict[str, int]:
-    """Find the instructions that are commented out. Returns the line of each of these instructions, by the
-    instruction's first operand.
+    """Find the instructions that are commented out. Returns a dictionary from the first operand of each instruction to
+    the instruction's line.
     """
     words = {i.op for i in INSTRUCTIONS.values() if i.operands and i.operands[0].refers in refers}
     found: dict[str, int] = {}

@@ -1,8 +1,8 @@
 """Finds each RESTORE whose difference has not been saved on any path to that RESTORE.
 
-Exception: a difference may be saved relative to a goal that a RESTORE of the same difference has shifted. Each SAVE
-then changes the goal to which the next SAVE refers. Before the first SAVE of such a difference, the difference may be
-used with the value zero.
+There is one exception. A difference may be saved relative to a goal that a RESTORE of the same difference has shifted.
+Each SAVE then changes the goal to which the next SAVE refers. Before the first SAVE of such a difference, the
+difference may be used with the value zero.
 """
 
 from collections.abc import Iterator
@@ -18,7 +18,9 @@ from handeye.program.motion_operations import Move
 
 
 def check_restores(lowered: Lowered, graph: Graph) -> Iterator[Diagnostic]:
-    """Report RESTOREs that are wrong in every call. Names without any SAVE are left to `check_names`."""
+    """Report RESTOREs that are wrong in every call. A name without any SAVE is not reported here, because
+    `check_names` reports it.
+    """
     saves = {number: _name(lowered.origins[number]) for number in graph.which(Save)}
     first: dict[str, Name] = {}
     for save in saves.values():
@@ -50,8 +52,8 @@ def check_restores(lowered: Lowered, graph: Graph) -> Iterator[Diagnostic]:
 
 
 def _follows(graph: Graph, move: int, name: str) -> bool:
-    """Return True if the difference `name` is saved after this MOVE and before the next one, so relative to the goal
-    of this MOVE.
+    """Return True if the difference `name` is saved after this MOVE and before the next MOVE. The difference is then
+    relative to the goal of this MOVE.
     """
     seen: set[int] = set()
     waiting = list(graph.onward[move])

@@ -104,8 +104,8 @@ def solve(arm: ArmModel, X_WT: Pose, near: Array) -> IKResult:
 
 
 def _ways(arm: ArmModel, q: list[float]) -> list[list[float]]:
-    """Return the given configuration. If the first and last wrist axes are in line, return all configurations within
-    the limits that divide the turn between these two joints in different ways.
+    """Return the given configuration. If the first and last wrist axes are in line, return all configurations that
+    divide the turn between these two joints in different ways and are within the limits.
     """
     if abs(math.sin(q[-2])) >= _COLLINEAR:
         return [q]

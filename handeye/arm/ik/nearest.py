@@ -67,7 +67,7 @@ def _miss(X_WT: Pose, X: Pose) -> Array:
 
 def _stepped(arm: ArmModel, q: Array, miss: Array) -> Array:
     """Return the configuration after the step that brings the hand nearest to the pose. If a joint would pass its
-    limit, it stops at the limit, and the other joints compensate for that.
+    limit, this joint stops at the limit, and the other joints compensate for the missing motion.
     """
     J = jacobian(arm, q) / np.repeat(WRITTEN, 3)[:, None]
     free: NDArray[np.bool_] = np.array([joint.name not in arm.held for joint in arm.joints])

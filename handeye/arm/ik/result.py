@@ -1,4 +1,4 @@
-"""Results of inverse kinematics, and the choice between solutions: of those within the limits, the one that the arm
+"""Results of inverse kinematics. Of the solutions within the joint limits, this module chooses the one that the arm
 reaches soonest.
 """
 
@@ -25,7 +25,7 @@ class IKResult:
     along: float | None = None  # of motions: m along the hand's path
 
     def message(self, arm: ArmModel) -> str:
-        """Write the reason as a sentence. Returns "" if there is a solution."""
+        """Write as a sentence why there is no solution. Returns "" if there is a solution."""
         return "" if self.reason is None else reach_sentence(arm, self.reason)
 
     def cause(self, arm: ArmModel, goal: str = "") -> BeyondArm:
@@ -86,7 +86,8 @@ def _inside(joint: Joint, x: float) -> bool:
 
 def _fault(arm: ArmModel, q: list[float]) -> tuple[float, IKResult]:
     """Return the failure of the joint that is farthest beyond its limit, and the time that this joint would take to
-    travel back to its limit. A failure of a prismatic joint is preferred, because no other branch avoids it.
+    travel back to its limit. The failure of a prismatic joint takes precedence, because no other branch avoids this
+    failure.
     """
     outside = [(i, j, x) for i, (j, x) in enumerate(zip(arm.joints, q, strict=True)) if not _inside(j, x)]
     excess = [(j.kind == "prismatic", max(x - j.upper, j.lower - x) / j.speed) for _, j, x in outside]

@@ -40,8 +40,9 @@ def _check(arm: ArmModel) -> None:
 
 
 def branches(arm: ArmModel, X_WT: Pose, start: Array | None) -> tuple[Array, NDArray[np.bool_]]:
-    """Return four branches: the shoulder on the positive side, then on the negative side, each with the wrist not
-    flipped and flipped. No branch exists where the wrist would be nearer to axis 1 than the offset d2 allows.
+    """Return four branches: two with the shoulder on the positive side, then two with the shoulder on the negative
+    side. In each pair, the wrist is first not flipped, then flipped. No branch exists where the wrist would be nearer
+    to axis 1 than the offset d2 allows.
     """
     _check(arm)
     X_BT = inverse(arm.X_WB) @ np.asarray(X_WT, dtype=np.float64)
@@ -145,7 +146,7 @@ def _from_boom(m: ModuleType, q123: Any, rows: Any) -> Any:
 
 
 def _bend_and_roll(m: ModuleType, q4: Any, finger: Any, approach: Any) -> Any:
-    """Return q5 and q6 for a given q4, from the directions of `_from_boom`."""
+    """Return q5 and q6 for a given q4, from the two directions that `_from_boom` returns."""
     (o1, o2, o3), (a1, a2, a3) = finger, approach
     c4, s4 = m.cos(q4), m.sin(q4)
     q5 = m.atan2(c4 * a1 + s4 * a2, a3)

@@ -1,10 +1,10 @@
-"""Finds executed steps that changed only the memory of the program. One lift of the hand reverses all these steps.
+"""Finds executed steps that left the cell as it was. One lift of the hand reverses all these steps.
 
-The steps that changed only the memory are rounds of a loop, and touches. When a program has jumped back to an earlier
-step, the cell is assumed to be in the same state as after that step if four conditions hold. Since that step, no stage
-began and the operator was not called. The hand holds the same object. Every object was put down at the place where it
-was taken up, or taken up at the place where it was put down. Every screw that was driven in was backed out. Rounds
-that carry objects to another place do not meet the conditions and are reversed step by step.
+Such steps are rounds of a loop, and touches. When a program has jumped back to an earlier step, the cell is assumed to
+be in the same state as after that step if four conditions hold. Since that step, no stage began and the operator was
+not called. The hand holds the same object. Every object was put down at the place where it was taken up, or taken up at
+the place where it was put down. Every screw that was driven in was backed out. Rounds that carry objects to another
+place do not meet the conditions and are reversed step by step.
 
 A touch is a motion of an empty hand that ended on contact, together with the motion that left the object. If a touch
 were reversed step by step, the hand would touch the object a second time. If the object has been pushed after the
@@ -92,7 +92,7 @@ def _goes_empty(done: ExecutedStep) -> bool:
 
 
 def without_rounds(done: Sequence[ExecutedStep], hand: Callable[[int], Array | None]) -> Iterator[int]:
-    """Yield the indices of steps in the order of reversal, without the rounds that are skipped."""
+    """Yield the indices of the steps to reverse, in the order of reversal. The steps of skipped rounds are left out."""
     index = len(done) - 1
     while index >= 0:
         yield index
@@ -102,8 +102,8 @@ def without_rounds(done: Sequence[ExecutedStep], hand: Callable[[int], Array | N
 
 
 def _alike(one: ExecutedStep, other: ExecutedStep) -> bool:
-    """Return True if two executed steps are the same step, with the same hold before and after, and with the
-    screwdriver off.
+    """Return True if two executed steps are the same step, if load, grasp and gap were the same in both, and if the
+    screwdriver was off.
     """
     same = (one.step, one.load, one.grasping) == (other.step, other.load, other.grasping)
     gaps = zip(one.gap, other.gap, strict=True)

@@ -22,8 +22,8 @@ REMEMBERED: Final = (
 )  # fmt: skip
 Memory = dict[str, Any]  # by field of the state
 _UNCHECKED: Final[Memory] = {"done": [], "undoing": None, "unwound": {}, "shots": {}, "found": {}}
-"""Fields that steps do not store. Before the memory of a step is checked, empty fields replace them, because they are
-large and known to be valid.
+"""Fields that steps do not store. These fields are large and known to be valid, so they are replaced by empty ones
+before the memory of a step is checked.
 """
 _TYPES: Final[dict[str, Any]] = get_type_hints(ExecutionState)
 
@@ -53,7 +53,7 @@ def recalled(run: ExecutionContext, before: dict[str, bytes]) -> Memory:
 
 
 def remember(state: ExecutionState, found: Memory) -> None:
-    """Put stored memory back into a state."""
+    """Put a stored memory back into a state."""
     for name, value in found.items():
         here = getattr(state, name)
         if isinstance(here, MutableRecord) and type(here) is type(value):

@@ -2,9 +2,9 @@
 path.
 
 The arm is stopped by force that has built up in any direction since the reversal began, and by early contact of
-closing fingers. Fingers close on the middle of the hand. An object beside the middle is touched by one finger first,
-while the gap is still too wide. If the fingers closed on such an object, they would push the object to the middle, or
-push the arm, and the final gap would look right.
+closing fingers. Closing fingers meet in the middle of the hand. If an object is beside the middle, one finger touches
+the object first, while the gap is still too wide. If the fingers closed on such an object, they would push the object
+to the middle, or push the arm, and the final gap would look right.
 """
 
 from collections.abc import Callable
@@ -29,7 +29,7 @@ from handeye.touch.senses import too_early
 
 ALLOWED: Final = 20.0
 """Least force limit of a reversal (N). We measured the sensed force while a top is lifted off the pins. The greatest
-force is 11 N. If a screw is left in the top, the force is 36 N and then 108 N.
+force was 11 N. With a screw left in the top, the force was 36 N and then 108 N.
 """
 SHARE: Final = 1.5  # multiple of the force that the step itself met
 
@@ -78,12 +78,12 @@ class EarlyContact:
 
 
 RAMP: Final = 8
-"""Number of servo periods for speeding up and for slowing down. Our choice. The path needs both, because a motion that
-was ended by a force did not slow down at its end.
+"""Number of servo periods in which the arm speeds up at the start of the reverse path, and in which it slows down at
+the end. Our choice. A recorded path may lack such a ramp: a motion that a force ended did not slow down at its end.
 """
 JOIN: Final = 5e-4
-"""Speed (rad or m per servo period) at which the joints first move to the end of the path. Brakes and guards can leave
-the arm beside the path.
+"""Speed (rad or m per servo period) at which the joints move from the present position to the end of the recorded
+path, before they retrace this path. After brakes or a guard have stopped it, the arm can be beside the path.
 """
 
 
@@ -132,10 +132,11 @@ def retracing(
 
 
 FALLEN: Final = 0.31 * INCH
-"""Distance (m) by which a held object may have fallen. It follows from the gasket of the pump: the fingers reach .25
-in through the gasket (`[gasket_stand]`), which is .06 in thick. If the gasket had fallen much farther, the fingers
-could not hold it again. Measured: 6.0 and 6.7 mm in the worlds of seeds 8128 and 8124. In the world of seed 8724 the
-gasket fell 8.05 mm and was still held, but this limit stops the reversal, because the height of the arm is not exact.
+"""Distance (m) by which a held object may have fallen. The gasket of the pump determines this distance: the fingers
+reach .25 in through the gasket (`[gasket_stand]`), which is .06 in thick. If the gasket had fallen much farther, the
+fingers could not hold it again. In the worlds of seeds 8128 and 8124, the gasket fell by 6.0 and 6.7 mm. In the world
+of seed 8724 the gasket fell 8.05 mm and was still held, but this limit stops the reversal, because the height of the
+arm is not exact.
 """
 
 

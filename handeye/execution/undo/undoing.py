@@ -127,8 +127,7 @@ def _forget(run: ExecutionContext, first: int, remembered: Sequence[Memory]) -> 
     """Restore the memory from before the step at index `first`. Removes this step and all later steps from the
     executed steps, and returns them.
 
-    `remembered` holds, for each of these steps, the part of the memory that the step changed, as it was before the
-    step.
+    `remembered` holds, for each of these steps, the old values of the variables that the step changed.
     """
     state, undone = run.state, run.state.done[first:]
     for memory in reversed(remembered):
@@ -342,7 +341,7 @@ def _lift(run: ExecutionContext, entry: int) -> UndoFailure | None:
 
 
 def _met(run: ExecutionContext, outcome: Outcome, meeting: EarlyContact | None = None) -> UndoFailure | None:
-    """Return the failure if a motion ends the reversal, or None if the reversal goes on."""
+    """Return the failure if a motion of the reversal failed, or None if the reversal can go on."""
     if outcome.error is not None:
         return UndoFailure(error=outcome.error, cause=outcome.cause)
     if outcome.trip is None:

@@ -19,16 +19,16 @@ from handeye.touch.guards import ActiveGuard, FirstOf, Reading, Trip
 
 SPEED: Final = 1.5
 """Speed of turning out, as a multiple of the speed of driving in. The torque at which a motor stalls is proportional
-to its commanded speed. The torque that loosens a screw needs this speed.
+to its commanded speed. At this higher speed, the motor exerts enough torque to loosen a screw.
 """
 PRESS: Final = 6.0  # N on the screw to keep the bit in its slot, as for driving in
 TURN: Final = 0.00127 * 1.5
-"""Tolerance (m) by which the rise may be less than the descent: one and a half turns of the thread, because the
+"""Tolerance (m) by which a screw may rise less than it went down: one and a half turns of the thread, because the
 start of the thread is not sensed.
 """
 TIGHTENED: Final = 3 * 0.00127
-"""Height (m) of three turns of the thread. A screw that rises less was only tightened. A screw driven from the
-mouth of its thread makes five turns.
+"""Height (m) of three turns of the thread. A screw that rises by less than this height was only tightened. A screw
+driven from the mouth of its thread makes five turns.
 """
 QUIET: Final = 20  # servo periods without rising that show the end; a thread would lift a screw by 3 mm
 RISING: Final = 2e-4  # m that count as risen
@@ -36,8 +36,8 @@ PATIENCE: Final = 120  # servo periods within which a screw must begin to rise
 
 
 LOWER: Final = 0.002
-"""Greatest descent (m), made in one second, to check that there is a screw under the bit: half the height of the
-head of the screw.
+"""The bit descends by at most this distance (m), within one second, to check that there is a screw under it. The
+distance is half the height of the screw's head.
 """
 
 
@@ -126,8 +126,8 @@ def _course(run: ExecutionContext) -> Course:
 
 def taken_by(run: ExecutionContext, backwards: Iterable[int]) -> int | None:
     """Return the index of the step in which the screwdriver took up the screw that a later step drives in: the last
-    step that ended on a force (on the head of the screw) before the hand moved to the hole. Returns None if there is
-    no such step.
+    step before the motion to the hole in which a force, from the head of the screw, ended the motion of the hand.
+    Returns None if there is no such step.
 
     `backwards` gives the indices of steps, from the driving step backwards.
     """

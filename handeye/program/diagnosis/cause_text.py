@@ -23,8 +23,8 @@ def error_sentence(number: int, cause: Cause | None) -> str:
 
 
 def call_sentence(message: str, error: int | None, cause: Cause | None) -> str:
-    """Write the sentence for a call to the operator: the program's own message if it has one, or else the error, or
-    else the cause.
+    """Write the sentence for a call to the operator. This is the program's own message. Without a message, it is the
+    sentence of the error, and without an error, that of the cause.
     """
     if message:
         return message
@@ -165,8 +165,8 @@ def _not_found(cause: c.SightCause) -> str:
             return "the part is not in the field of the close picture: is the camera aimed at it?"
         case c.FaintPicture():
             return (
-                f"the earlier picture is too faint to compare: its contrast on the part is {cause.contrast:.1f} grey "
-                f"levels, at least {cause.least:.1f} are needed; check camera and light"
+                f"the earlier picture is too faint to compare: its contrast on the part is {cause.contrast:.1f} "
+                f"grey levels, but at least {cause.least:.1f} are needed; check camera and light"
             )
         case c.NoHoles(blobs=0):
             return "found no hole: is the picture in focus, and is the part in it?"

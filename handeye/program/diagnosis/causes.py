@@ -75,19 +75,19 @@ class HandPushed(HandAstray, frozen=True, kw_only=True):
 
 
 class HandStuck(CauseRecord, frozen=True, kw_only=True):
-    """The hand moved by only `moved` (m) while it pressed."""
+    """The hand was pressing, and stopped after it had moved by only `moved` (m)."""
 
     moved: float
 
 
 class GuardsUnmet(CauseRecord, frozen=True, kw_only=True):
-    """A motion ended, and none of these guards had tripped."""
+    """A motion ended, although none of its `guards` had tripped."""
 
     guards: tuple[GuardKind, ...]
 
 
 class TravelOutside(CauseRecord, frozen=True, kw_only=True):
-    """The last straight motion, `travel` (m), was too short or too long."""
+    """The last straight motion was too short or too long. `travel` (m) is the length of this motion."""
 
     travel: float
     minimum: float
@@ -132,7 +132,7 @@ class GapTooLarge(CauseRecord, frozen=True, kw_only=True):
 
 
 class NothingBetween(CauseRecord, frozen=True, kw_only=True):
-    """Centring ended before both fingers touched."""
+    """Centring ended before both fingers touched an object."""
 
     gap: float
 
@@ -147,7 +147,7 @@ class NoPicture(CauseRecord, frozen=True, kw_only=True):
 
 
 class NoGeneral(CauseRecord, frozen=True, kw_only=True):
-    """A part was to be located by its holes, but had not been located roughly before."""
+    """A part was to be located by its holes, but no `GENERAL` had found its rough place before."""
 
 
 class NoOutline(CauseRecord, frozen=True, kw_only=True):
@@ -159,7 +159,9 @@ class OutsidePicture(CauseRecord, frozen=True, kw_only=True):
 
 
 class FaintPicture(CauseRecord, frozen=True, kw_only=True):
-    """The earlier picture has too little contrast, in grey levels, to show whether the part has changed."""
+    """The contrast of the earlier picture is too low to show whether the part has changed. Both numbers are in grey
+    levels.
+    """
 
     contrast: float
     least: float

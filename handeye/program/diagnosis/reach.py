@@ -43,7 +43,7 @@ class OutOfReach(BeyondRange, frozen=True):
 
 
 class TooNear(BeyondRange, frozen=True):
-    """The boom would be retracted too far: the hand is too near to the column."""
+    """The boom would be retracted too far, because the hand would be too near to the column."""
 
 
 class JointLimit(BeyondRange, frozen=True):

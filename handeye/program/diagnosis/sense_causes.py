@@ -98,8 +98,9 @@ class JointSensesApart(CauseRecord, frozen=True, kw_only=True):
 
 
 class RateScatters(CauseRecord, frozen=True, kw_only=True):
-    """The rate reading of a joint scatters by `scatter` while the arm holds still. A sound tachometer scatters by at
-    most `limit`. `scatter` and `limit` are median deviations from the median, in rad/s or m/s.
+    """The rate reading of a joint scatters by `scatter` while the arm holds still. The readings of an intact
+    tachometer scatter by at most `limit`. `scatter` and `limit` are median deviations from the median, in rad/s or
+    m/s.
     """
 
     joint: JointName

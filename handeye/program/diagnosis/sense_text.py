@@ -119,7 +119,7 @@ def _jump(cause: s.GapJumped) -> str:
 
 
 def touching_fingers(fingers: tuple[bool, bool]) -> str:
-    """Write which fingers touch, with the verb, such as `both fingers touch`."""
+    """Return a clause that says which fingers touch, such as `both fingers touch`."""
     named = _named(fingers)
     return f"the {named[0]} finger touches" if len(named) == 1 else "both fingers touch"
 
@@ -182,5 +182,5 @@ def inches(length: float) -> str:
 
 
 def inches_apart(*lengths: float, decimals: int = 2) -> list[str]:
-    """Write lengths (m) in inches, with more decimals if two of them would look the same."""
+    """Write lengths (m) in inches, with more decimals if two lengths would look the same."""
     return distinct_digits([length / INCH for length in lengths], decimals)

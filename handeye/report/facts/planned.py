@@ -97,7 +97,7 @@ def searches(run: RecordedRun) -> tuple[Search, ...]:
 
 
 def _tries(events: tuple[AnyEvent, ...]) -> Iterator[list[tuple[StepStarted, AnyEvent]]]:
-    """Yield, for each search, the steps in which the search advanced. Yield the event of the advance with each step."""
+    """Yield, for each search, the steps in which the search advanced, each with the event of the advance."""
     step: StepStarted | None = None
     tries: list[tuple[StepStarted, AnyEvent]] = []
     for event in events:

@@ -32,8 +32,8 @@ def _content(run: RecordedRun) -> Iterator[Markup]:
         )
     else:
         yield note(
-            "The referee measured the finished work in the simulator; the program does not see these values. A "
-            "bar shows what fraction of its limit a value uses; counts have no bar."
+            "The referee measured the finished work in the simulator; the program does not see these values. The "
+            "bar beside a value shows the value as a fraction of its limit; counts have no bar."
         )
         yield findings_table(run.result.referee.values())
         for limit in told_limits(run.result):
@@ -77,7 +77,7 @@ def _mark(check: Check) -> tuple[Markup]:
 
 
 def used(check: Check) -> float | None:
-    """Return the fraction of its limit that a value reaches. Returns None for a count, or if the limit is zero."""
+    """Return the ratio of a measured value to its limit. Returns None for a count, or if the limit is zero."""
     if check.unit not in UNITS or check.limit == 0:
         return None
     if check.relation == "at least" and check.limit > 0:

@@ -82,8 +82,8 @@ def _told(finding: Finding) -> str:
 
 
 def _mark(mark: Mark) -> Markup:
-    """Return a mark as SVG. Coordinates in pictures count from the centre of the first pixel; coordinates in
-    drawings count from the corner of that pixel.
+    """Return a mark as SVG. The origin of the coordinates is the centre of the first pixel in pictures, and the corner
+    of that pixel in drawings.
     """
     match mark:
         case Loop():
@@ -125,8 +125,9 @@ def picture_png(picture: Picture) -> bytes:
 
 
 def _lines(picture: Picture) -> bytes:
-    """Return the lines of a picture as PNG stores them: two pixels per byte, and before each line the number of
-    its filter, which is "none"."""
+    """Return the lines of a picture as PNG stores them: two pixels per byte, and before each line a byte with the
+    number of its filter. The number is 0: no filter.
+    """
     even = np.pad(picture, ((0, 0), (0, picture.shape[1] % 2)))
     packed = (even[:, ::2] << 4 | even[:, 1::2]).astype(np.uint8)
     return np.pad(packed, ((0, 0), (1, 0))).tobytes()

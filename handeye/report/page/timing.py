@@ -29,7 +29,7 @@ _HIGH: Final = 7.0
 
 
 def timing_section(run: RecordedRun) -> Markup:
-    """Return the section with the times."""
+    """Return the section with the times of a run."""
     figures = statistics(run.trace.events, {})
     then = run.period
     return section(

@@ -67,7 +67,7 @@ def title(run: RecordedRun, outcome: Outcome) -> str:
 def verdict(
     run: RecordedRun, outcome: Outcome, told: Sequence[CaptionedEvent], photograph: Photograph
 ) -> Markup:
-    """Return the top of the page."""
+    """Return the top of the page, with the outcome of the run."""
     head = run.trace.head
     arm = f" on the simulated {head.arm} arm" if head.arm else ""
     words = element(
@@ -122,7 +122,7 @@ def _judged(run: RecordedRun, outcome: Outcome) -> Iterator[Markup]:
     if shares:
         share, check = max(shares, key=lambda each: each[0])
         told += (
-            f"; the value closest to its limit, at {100 * share:.0f} % of the limit, is the {check.subject}"
+            f". The value closest to its limit is the {check.subject}, at {100 * share:.0f} % of the limit"
         )
     yield element("p", f"{told}.")
     for doubt in outcome.doubts:

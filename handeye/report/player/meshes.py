@@ -36,9 +36,9 @@ class Meshes:
     """
 
     told: list[dict[str, Any]] = field(default_factory=list)
-    """What the page must know about each mesh. `fine` and `coarse`, the two levels of detail: the index of the first
-    corner of the level's triangles, and the number of the triangles' corners. `scale`: the scale of the points.
-    `ball`: the bounding sphere. `parts`: the names and ranges of the pieces.
+    """What the page must know about each mesh. `fine` and `coarse` describe the two levels of detail; each gives the
+    index of the first corner of its triangles, and the number of their corners. `scale` is the scale of the points,
+    and `ball` is the bounding sphere. `parts` gives the name and the range of each piece.
     """
     _points: list[NDArray[np.uint16]] = field(default_factory=list)
     _normals: list[NDArray[np.int8]] = field(default_factory=list)
@@ -51,8 +51,8 @@ class Meshes:
         return self._added(pieces, _coarse(pieces))
 
     def number_of_parts(self, pieces: Sequence[Piece]) -> int:
-        """Return the number of a body's mesh, as `number` does. Here the user can click on the named pieces of the
-        body. Pieces with the same name are stored together.
+        """Return the number of a body's mesh, as `number` does. In this mesh, the user can click on the named pieces
+        of the body. Pieces with the same name are stored together.
         """
         number = self._added(pieces, ())
         first, _ = self.told[number]["fine"]

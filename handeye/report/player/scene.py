@@ -275,7 +275,7 @@ def _distance(model: Any, eye: Array, forward: Array) -> float:
 
 
 def _overview(model: Any) -> dict[str, Any]:
-    """Return a view of the whole scene, for scenes that have no camera for it."""
+    """Return a view of the whole scene, for a scene that has no camera for this view."""
     middle = np.array(model.stat.center)
     return _view(ROOM, middle + model.stat.extent * np.array([1.2, 0.7, 0.8]), middle, _LENS)
 

@@ -28,8 +28,8 @@ class Track:
     periods: NDArray[np.int64]  # Servo periods of the poses, shape (n,)
     poses: Array
     """Poses, shape (n, 7): position (m), then a unit quaternion w, x, y, z. Two quaternions with opposite signs
-    describe the same rotation. Of these two, each pose has the one that is nearer to the quaternion of the pose
-    before.
+    describe the same rotation. Each pose contains whichever of the two is nearer to the quaternion of the previous
+    pose.
     """
 
     @classmethod
@@ -58,7 +58,7 @@ class Track:
 
 
 def _needed(poses: Array) -> Rows:
-    """Return the rows between which all other poses can be interpolated within tolerance."""
+    """Return the rows of `poses` from which all other rows can be interpolated within tolerance."""
     if np.ptp(poses, axis=0).max() < _STILL:
         return np.zeros(1, dtype=np.int64)
     numbers = np.arange(len(poses), dtype=np.float64)

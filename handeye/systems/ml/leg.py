@@ -6,9 +6,9 @@ degree. All slides are at 0 where the tool is at x = 24, y = 42 and z = 5 in; at
 Sensors 2 to 4 read the force on the hand along X, Y and Z (up) in grams, and sensors 9 and 10 read the switches of the
 fingers. A cycle takes a servo period of the arm, 1/60 s, instead of 10 ms.
 
-A remark `* NAME IS &n` puts the height NAME of the record into the variable n, as a position of motor 2. A remark `*
-&n IS NAME` hands the variable n over as the height NAME. ML has no word with which a program can report a failure.
-Therefore, a program has succeeded only if the last line that it printed is 0.
+A remark `* NAME IS &n` reads the height NAME from the hand-over record, and puts it into the variable n as a position
+of motor 2. A remark `* &n IS NAME` hands the variable n over as the height NAME. ML has no word with which a program
+can report a failure. Therefore, a program has succeeded only if the last line that it printed is 0.
 """
 
 import re

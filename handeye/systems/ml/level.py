@@ -52,7 +52,7 @@ class Level(ABC):
     @property
     @abstractmethod
     def posted(self) -> Post:
-        """What ended the last motion. The text is empty while a motion is under way."""
+        """A word that says what ended the last motion. While a motion is under way, the word is empty."""
 
     @property
     @abstractmethod
@@ -72,12 +72,12 @@ class Level(ABC):
 
     @abstractmethod
     def read(self, table: str, line: int, word: int) -> int:
-        """Return a word of a table. Lines and words count from 1. Raises MlError (M11)."""
+        """Return a word of a table. Lines and words count from 1. Raises MlError (M11) if there is no such word."""
 
     @abstractmethod
     def write(self, table: str, line: int, word: int, value: int) -> None:
-        """Write a word of a table. The real-time level uses the new value from the next cycle on. Raises MlError
-        (M11).
+        """Write a word of a table. The real-time level uses the new value from the next cycle on. Raises MlError (M11)
+        if the word does not exist or cannot be written.
         """
 
     @abstractmethod
@@ -93,27 +93,32 @@ class Level(ABC):
 
     @abstractmethod
     def expect(self, sensor: int, lower: int, upper: int) -> None:
-        """Set the expected limits of a sensor, and clear its flag. Raises MlError (M04, M11)."""
+        """Set the expected limits of a sensor, and clear its flag. Raises MlError if the limits are in the wrong order
+        (M04), or if there is no such sensor (M11).
+        """
 
     @abstractmethod
     def open(self, sensor: int | None = None) -> None:
         """Open the limits of a sensor, so that every reading is within the limits, and clear the sensor's flag. If no
-        number is given, open the limits and clear the flags of all sensors. Raises MlError (M11).
+        number is given, open the limits and clear the flags of all sensors. Raises MlError (M11) if there is no such
+        sensor.
         """
 
     @abstractmethod
     def reading(self, sensor: int) -> int:
-        """Return the latest reading of a logical sensor. Raises MlError (M11)."""
+        """Return the latest reading of a logical sensor. Raises MlError (M11) if there is no such sensor."""
 
     @abstractmethod
     def calibrate(self, sensors: Sequence[int]) -> None:
-        """Take the mean of the last 8 readings of each sensor as its zero. If no numbers are given, do this for all
-        analog sensors. Raises MlError (M11).
+        """Take the mean of the last 8 readings of each sensor as its zero. If `sensors` is empty, do this for all
+        analog sensors. Raises MlError (M11) if there is no such sensor.
         """
 
     @abstractmethod
     def wand(self, sensor: int) -> None:
-        """Assign the wand to a logical sensor, which expects no contact from now on. Raises MlError (M11)."""
+        """Assign the wand to a logical sensor. From then on, the sensor's flag comes on if the wand touches something.
+        Raises MlError (M11) if there is no such sensor, or if the arm has no wand.
+        """
 
     # -- motors ---------------------------------------------------------------------------------------
 
@@ -124,11 +129,11 @@ class Level(ABC):
 
     @abstractmethod
     def position(self, motor: int) -> int:
-        """Return the latest position of a motor. Raises MlError (M09)."""
+        """Return the latest position of a motor. Raises MlError (M09) if the motor is not installed."""
 
     @abstractmethod
     def goal(self, motor: int) -> int:
-        """Return the strategic goal of a motor. Raises MlError (M09)."""
+        """Return the strategic goal of a motor. Raises MlError (M09) if the motor is not installed."""
 
     @abstractmethod
     def start(self, goals: Mapping[int, int]) -> bool:
@@ -172,14 +177,14 @@ class Level(ABC):
 
     @abstractmethod
     def analog_in(self, point: int) -> int:
-        """Return an analog input. Raises MlError (M11)."""
+        """Return an analog input. Raises MlError (M11) if there is no such input."""
 
     @abstractmethod
     def analog_out(self, point: int, value: int) -> None:
-        """Set an analog output. Raises MlError: M11 if there is no such output, M15 while the pump is on."""
+        """Set an analog output. Raises MlError: M11 if there is no such output, and M15 while the pump is on."""
 
     @abstractmethod
     def digital_out(self, word: int, value: int, mask: int) -> None:
         """In a digital output word, replace each bit for which `mask` has a 1 by the same bit of `value`. Raises
-        MlError: M11 if there is no such word, M15 while the pump is on.
+        MlError: M11 if there is no such word, and M15 while the pump is on.
         """

@@ -46,7 +46,7 @@ class Ml:
             senses: such values as texts, in the form of `handeye ml run --sense`: with `5=500@3:2750`, sensor 5 reads
                 500 while motor 3 is at 2750 or farther from 0.
             procedures: a dictionary from the names of commands, `UPROCA` to `UPROCD`, to the functions that these
-                commands call. Each function is called with this terminal's interpreter and the values of the
+                commands call. Each function is called with the interpreter of this `Ml` and the values of the
                 statement's parameters.
         """
         self.events: list[SystemEvent] = []
@@ -80,8 +80,8 @@ class Ml:
         return self._program.listing()
 
     def load(self, text: str) -> None:
-        """Store the numbered lines of a program, and execute the lines that have no number. Raises MlError or
-        BadArgument.
+        """Store the numbered lines of a program, and execute the lines that have no number. Raises MlError if a line
+        cannot be executed, and BadArgument if a line cannot be read.
         """
         for line in text.splitlines():
             self.do(line)

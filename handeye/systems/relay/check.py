@@ -76,8 +76,8 @@ def misfits(plan: RelayPlan) -> Iterator[LegFinding]:
 
 
 def inexpressible(plan: RelayPlan) -> Iterator[LegFinding]:
-    """Yield lines of the task's own program, for each leg: the lines in the stage of the leg whose operations the
-    language of the leg cannot express. Stages are compared by name.
+    """For each leg, yield the lines that the language of the leg cannot express, among the lines of the same stage in
+    the task's own program. Stages are compared by name.
     """
     program, file = own_program(plan.task)
     for leg in legs(plan):

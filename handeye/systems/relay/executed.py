@@ -81,9 +81,9 @@ def check_order(plan: RelayPlan, state: RelayCore, undoing: ReversalOrder) -> No
 
 
 def own_order(plan: RelayPlan, state: RelayCore, undoing: ReversalOrder) -> ReversalOrder | None:
-    """Reduce an order to undo steps to the steps of the present program, which has the arm. Keep only the steps since
-    this program took the arm over. The returned order has this program's own step numbers. Returns None if there are
-    no such steps.
+    """Return the part of an order to undo that the present program can carry out: the steps that this program has
+    executed since it took the arm over. The returned order has this program's own step numbers. Returns None if the
+    order names no such steps.
     """
     own, done = own_legs(plan, state), executed(plan, state)
     before = sum(each.step < own[0].first for each in done)

@@ -1,4 +1,4 @@
-"""Events of a relay: legs that take the arm over, and that leave it. The events of the legs themselves are those of
+"""Events of a relay: a leg takes over the arm, or leaves it. The events of the legs themselves are those of
 their systems.
 """
 
@@ -31,7 +31,7 @@ class LegStarted(SystemEvent, frozen=True, kw_only=True):
 
 
 class LegFinished(SystemEvent, frozen=True, kw_only=True):
-    """A leg has ended, its brakes are set, and its hand-over record is made."""
+    """A leg has ended, the brakes are set, and the hand-over record of the leg is made."""
 
     stage: str
     system: str
@@ -42,7 +42,9 @@ class LegFinished(SystemEvent, frozen=True, kw_only=True):
 
 
 def _kind(system: str, kind: type[SystemEvent]) -> type[SystemEvent]:
-    """Return a kind of event of a system under a new name, which no other system has."""
+    """Return a copy of a kind of event with the name of the system in its own name, so that no other system has an
+    event of the same name.
+    """
     name = f"{system.capitalize()}{kind.__name__}"
     made: Any = msgspec.defstruct(
         name, [], bases=(kind,), frozen=True, kw_only=True, tag_field="event", tag=name, module=__name__

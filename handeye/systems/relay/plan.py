@@ -158,7 +158,7 @@ def sound(plan: RelayPlan) -> None:
 
 
 def decoded(program: ProgramPlan) -> Any:
-    """Return the plan of a program. Raises BadFile."""
+    """Return the plan of a program. Raises BadFile if the plan is not valid."""
     return _decoded(program.system, program.file, program.plan)
 
 

@@ -198,8 +198,9 @@ class RunningRelay(RunningSystem):
         self._go_on()
 
     def _go_on(self, *, undoing: bool = False) -> None:
-        """Follow the program that has the arm. If its leg has ended, the arm is handed over. If `undoing` is True, the
-        last step was an undo, which may have gone back into an earlier leg of the same program.
+        """Update the relay after a step of the program that has the arm. If the leg of this program has ended, hand
+        the arm over to the next leg. If `undoing` is True, the last step was an undo, which may have gone back into an
+        earlier leg of the same program.
         """
         self._mirror(undoing=undoing)
         if undoing or self._running.state.stopped is not None or self._running.state.stage is not None:
@@ -333,7 +334,7 @@ class RunningRelay(RunningSystem):
 
     def _go_back(self) -> None:
         """Let the program that has the arm undo its steps. If that program has no steps to undo, give the arm back to
-        the program before it, until a program has steps to undo.
+        the program before it. Repeat this until a program has steps to undo.
         """
         assert self._state.undoing is not None
         while (order := own_order(self._plan, self._state, self._state.undoing)) is None:
@@ -382,8 +383,8 @@ class RunningRelay(RunningSystem):
     # -- events -------------------------------------------------------------------------------------------
 
     def _retell(self, event: AnyEvent) -> None:
-        """Emit an event of a program with the numbers and stages of the relay. An order to undo steps gives one
-        `UndoOrdered` and one `UndoEnded`, even if several programs execute it.
+        """Emit an event of a program, but with the step numbers and stages of the relay instead of the program's own.
+        An order to undo steps gives one `UndoOrdered` and one `UndoEnded`, even if several programs execute it.
         """
         if isinstance(event, UndoOrdered):
             if self._state.undoing is not None:

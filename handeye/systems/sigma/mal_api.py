@@ -145,7 +145,7 @@ class Mal:
         return [f"{event.time:6.2f} s  {event.sentence(MILLIMETRES)}" for event in self._events]
 
     def status(self, axis: str) -> str:
-        """Return the state of a motor: `free` or `busy`. After an abort, return the reason of the abort (`rail` or
+        """Return the state of a motor: `free` or `busy`. After an abort, return the reason for the abort (`rail` or
         `force`).
         """
         if axis not in AXES:
@@ -168,8 +168,8 @@ class Mal:
 
     @property
     def history(self) -> Mapping[str, Array]:
-        """The true motion of the gantries, one row for each millisecond: `time` (s), `place` (mm) and `force` on
-        the wrists (N), both with columns X1, Y1, Z1, X2, Y2, Z2.
+        """The true motion of the gantries, one row for each millisecond: `time` (s), `place` (mm) and `force` on the
+        wrists (N). `place` and `force` have the columns X1, Y1, Z1, X2, Y2, Z2.
         """
         self._physics()
         times, places, forces = zip(*self._rows, strict=True) if self._rows else ((), (), ())

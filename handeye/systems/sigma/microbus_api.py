@@ -101,8 +101,8 @@ class Microbus:
         return signed(answer) if kind in _SIGNED else int.from_bytes(answer, "big")
 
     def status(self, name: str | int) -> str:
-        """Return the state of a microcomputer: `free` or `busy`. If its last command was aborted, return the reason of
-        the abort (`rail` or `force`).
+        """Return the state of a microcomputer: `free` or `busy`. If its last command was aborted, return the reason
+        for the abort (`rail` or `force`).
         """
         return self._bus.status(number_of(name)).name.lower()
 

@@ -34,7 +34,7 @@ class OrderExercise(Exercise):
     @property
     def rules(self) -> tuple[str, ...]:
         return (
-            f"The program keeps every {', '.join(_WORK[:-1])} and {_WORK[-1]} of each task, in their order.",
+            f"Each task keeps every {', '.join(_WORK[:-1])} and {_WORK[-1]}, and keeps their order.",
             "Each line is executed in at least one order, and the program ends.",
         )
 

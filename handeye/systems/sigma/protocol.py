@@ -26,12 +26,12 @@ _LINE: Final = (
     "X5", "Y5", "HAND5", "X6", "SCALE", "HAND6",
 )  # fmt: skip
 LINE_NUMBERS: Final = NUMBERS | {name: len(NUMBERS) + number for number, name in enumerate(_LINE)}
-"""The number that identifies each microcomputer of the assembly line: those of two SUPERSIGMAs, of the feeder (names
-that end in 5) and of the belt (names that end in 6).
+"""The number that identifies each microcomputer of the assembly line. The line has the microcomputers of two
+SUPERSIGMAs, of the feeder (names that end in 5) and of the belt (names that end in 6).
 """
 AXES: Final = ("X1", "Y1", "Z1", "X2", "Y2", "Z2")
 LINE_AXES: Final = (*AXES, "X3", "Y3", "Z3", "X4", "Y4", "Z4", "X5", "Y5", "X6")
-"""The axes of the assembly line. The axes of arms, which have wrists, come first."""
+"""The axes of the assembly line. The axes of the arms come first; only arms have wrists."""
 COMPONENTS: Final = ("X", "Y", "Z")  # components of a wrist, as byte 3 numbers them
 DEVICES: Final = {
     "HAND": 0,
@@ -100,7 +100,7 @@ ANSWERS: Final[dict[Op, int]] = {
 
 
 def number_of(name: str | int) -> int:
-    """Return the number of a microcomputer. Raises NoSuchName."""
+    """Return the number of a microcomputer. Raises NoSuchName if there is no microcomputer of this name."""
     if isinstance(name, int):
         if not 0 <= name <= 0xFF:
             raise BadArgument(f"the number of a microcomputer must be between 0 and 255, not {name}")

@@ -79,7 +79,9 @@ class Claim(Record, frozen=True, kw_only=True):
 
 
 class Table1(Record, frozen=True, kw_only=True):
-    """The results of both layers, the load of programs that calculate, and the claims."""
+    """The rows of the paper's table, the loads in layer 1 and in layer 2, the loads of programs that calculate, and
+    the claims.
+    """
 
     paper: tuple[PaperRow, ...]
     layer1: tuple[Load, ...]

@@ -329,7 +329,7 @@ class RunningPlan(RunningSystem):
 
 
 class PlanSystem(System):
-    """Plans of motions for an arm."""
+    """The system that executes plans of motions for an arm."""
 
     name = PLANNED
     plan = Plan

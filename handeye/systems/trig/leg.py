@@ -6,8 +6,8 @@ the table, and a hand with ROLL, PITCH and YAW 0 points straight down, with its 
 leg teaches the program with an ideal arm. So the taught places are exact, like the positions in the arm language's
 taught file, which are computed from the drawing.
 
-TRIG has no command with which a program can report that it has failed. A leg therefore ends well only at the step
-FINISH.
+TRIG has no command with which a program can report that it has failed. Therefore a leg counts as successful only if
+its program ends at the step FINISH.
 """
 
 from collections.abc import Mapping, Sequence
@@ -103,7 +103,8 @@ class PlatterAxes(Axes):
 
     def read(self) -> AxesReading:
         """Return the sensed axes. The angles are the goal's angles, corrected by the rotation from the goal to the
-        hand. Near straight down, the angles of the hand itself are ambiguous.
+        hand. They are not computed from the hand alone: when the hand points almost straight down, its own angles are
+        ambiguous.
         """
         read = self._tool.read()
         R = hand(*read.q[:6])[:3, :3] @ hand(*self.told[:6])[:3, :3].T  # close to the identity
@@ -128,7 +129,7 @@ def on_platter(axes: "Sequence[float] | Array") -> Place:
 
 
 class _Job:
-    """What a TRIG job needs while it runs, on the Stanford arm."""
+    """The job of a TRIG program that runs on the Stanford arm."""
 
     def __init__(self, session: Session) -> None:
         self.session = session

@@ -1,5 +1,5 @@
-"""A TRIG session for use from Python. Python code types lines into the session, and both of TRIG's displays show the
-TRIG program that results.
+"""A TRIG session for use from Python. Python code types lines into the session. Both of TRIG's displays show the TRIG
+program that these lines make.
 """
 
 from typing import Final, get_args
@@ -68,7 +68,7 @@ class TrigSession:
         return x, y, z
 
     def photograph(self, *, width: int = 640, height: int = 480) -> Photograph:
-        """Return a photograph of arm and table from the front, as red, green and blue values of shape (height,
+        """Return a photograph of the arm and the table from the front, as red, green and blue values of shape (height,
         width, 3).
 
         Raises:

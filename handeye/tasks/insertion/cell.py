@@ -23,14 +23,16 @@ from handeye.tasks.stanford_cell.dimensions import PARK, base_top, dimensions, p
 from handeye.tasks.stanford_cell.shapes import Bore, Shaper, add_camera
 
 HOLE: Final = (25 * INCH, 38 * INCH)
-"""Position of the hole as taught to the program (m): the position of a hole in the pump's base."""
+"""Position of the hole (m) as taught to the program. A hole in the base of the pump has the same position in the
+pump's cell.
+"""
 HOLDER: Final = (15 * INCH, 35 * INCH)
 """Position of the holder with the pin (m): as in the pump's cell."""
 FACE: Final = base_top()  # height of the face around the hole, m
 CORNERS: Final = 48  # corners of a section of the nose; between two corners, the nose is .005 mm slimmer
 WEDGES: Final = 24
-"""Number of wedges around the hole. Between two wedges, the hole is .02 mm wider. With the rounded nose of the
-pin, the play is .057 to .063 mm instead of .057 mm.
+"""Number of wedges around the hole. Between two wedges, the hole is .02 mm wider, but the nose of the pin is round, so
+the play of the pin grows only from .057 mm to at most .063 mm.
 """
 PUSH: Final = "push"
 """Name of the sensor for the resultant force of all contacts between plate and pin (N), in W; no device reads
@@ -41,7 +43,7 @@ _NET_FORCE: Final = [1 << int(mujoco.mjtConDataField.mjCONDATA_FORCE), 3, 1]
 _ON_THE_FLOOR: Final = np.array([0.5, -0.5, -0.7])  # m: place of a pin that is not in the holder
 _RIM: Final = 0.070  # radius of the face around the hole, m
 _METAL: Final = ("solid", "tap", "bore", "base_land", "shoulder", "nose")
-"""Default classes of the shapes whose friction varies between worlds."""
+"""MuJoCo's default classes for the shapes whose friction varies between worlds."""
 
 
 def build(world: InsertionWorld) -> mujoco.MjModel:

@@ -29,8 +29,8 @@ HOLDER_PLACE: Final = 3.0
 holder's hole. The limit for the pump's pins is the same.
 """
 HOLE_PLACE: Final = 2.5
-"""Greatest distance (mm) of an inserted pin from the axis of its hole: the radius of its nose. A pin that lies on the
-table beside the plate is lower than a seated one, but not in the hole.
+"""Greatest distance (mm) of an inserted pin from the axis of its hole: the radius of the pin's nose. The height alone
+does not show that a pin is in its hole: a pin on the table beside the plate lies even lower.
 """
 ON_FACE: Final = 0.1
 """Greatest distance (mm) between the face and the end of a pin that stands on the face. Contacts are soft: a standing

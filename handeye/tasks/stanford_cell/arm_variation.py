@@ -49,7 +49,9 @@ def group(
     least: float = -np.inf,
     greatest: float = np.inf,
 ) -> Iterator[Quantity]:
-    """Yield quantities that share a source. Quantities that are magnitudes, such as noise, cannot be negative."""
+    """Yield quantities whose figures come from the same source. Quantities that are magnitudes, such as noise, cannot
+    be negative.
+    """
     units = [unit] * len(components) if isinstance(unit, str) else unit
     nominals = np.broadcast_to(nominal, len(components))
     for (name, distribution), its, middle in zip(components.items(), units, nominals, strict=True):
@@ -90,7 +92,7 @@ def arm() -> Iterator[Quantity]:
             "the whole arm (layout study, section 4)."),
         group("arm.wave_phase", phases, "deg", "Phase of the periodic error of the position reading."),
         group("arm.pot_noise", numbered(Noise, 0.004, 0.004, 0.002, 0.01, 0.01, 0.01), JOINT_UNITS,
-            "Reading-to-reading noise of the potentiometers, before the converter.",
+            "Noise of the potentiometers before the converter. This noise differs from reading to reading.",
             unsourced="the noise is far smaller than a step of the converter (.05 to .08 deg and .009 in), so the "
                 "converter does not show it. Bound: the output smoothness of the Bourns 6639, .1 % of the travel, "
                 "which is four steps of the converter."),
@@ -128,8 +130,8 @@ def arm() -> Iterator[Quantity]:
         group("arm.mass_centre", numbered(Uniform, *[5.0] * 6), "%",
             "Distance between a link's centre of mass and its joint: relative deviation of the true distance from "
             "the controller's value.", least=-90.0,
-            unsourced="the centres of mass were also published without a tolerance. To correct their error, the arm "
-            f"weighs its links. {DOUBLED}"),
+            unsourced="the centres of mass were also published without a tolerance. To correct the errors of these "
+            f"centres, the arm weighs its links. {DOUBLED}"),
         group("arm", {"hand_length": Uniform(0.02)}, "in",
             "True length of the hand minus the controller's value.",
             unsourced="no drawing gives the tolerance. A length like this is measured with a steel rule, which "
@@ -138,7 +140,9 @@ def arm() -> Iterator[Quantity]:
 
 
 def _friction() -> Iterator[Quantity]:
-    """Yield the Coulomb friction of the joints. The paper gives no check for joint 1, which carries no weight."""
+    """Yield the Coulomb friction of the joints. According to the paper, a released arm stays in place; this says
+    nothing about the friction of joint 1, which carries no weight.
+    """
     means = STANFORD.compliance.friction
     what = (
         "Coulomb friction of the joints, which varies by up to a quarter of its mean. Without this error, a joint "
@@ -181,9 +185,9 @@ def hand() -> Iterator[Quantity]:
             "2 oz for a simulation.",
             nominal=2.0, least=0.0),
         group("hand.lamp", {axis: Normal(0.03) for axis in "xyz"}, "in",
-            "Position of the lamp in the hand's frame, relative to the drawing that the camera calibration uses.",
-            unsourced="the lamp is screwed on by hand and set with a rule, which has divisions of 1/64 in. Bound: "
-                "1/16 in, two sigma."),
+            "Deviation of the lamp's position in the hand's frame from the drawing that the camera calibration uses.",
+            unsourced="the lamp is screwed on by hand and set with a steel rule, which has divisions of 1/64 in. "
+            "Bound: 1/16 in, two sigma."),
     )  # fmt: skip
 
 

@@ -37,8 +37,8 @@ LAND: Final = 9.5  # radius of the metal around a hole that fasteners can touch
 RING: Final = 1.5  # depth of the bit's ring below the bit's face
 TORQUE: Final = 0.32  # N m at which the clutch slips, as in the pump's screwdriver
 SPIN: Final = 0.01
-"""Torque on a loose screw (N m). It must be less than the friction between bit and head, because no slot keeps the bit
-from slipping.
+"""Torque on a loose screw (N m). This torque must be less than the friction between bit and head, because the
+simulated head has no slot that would keep the bit from slipping.
 """
 LOOSENING: Final = 0.8  # N m, greatest torque to loosen a screw
 MAGNET: Final = 2.0  # N
@@ -197,7 +197,7 @@ def add_thread(shaper: Shaper, base: mujoco.MjsBody, number: int, at: Place, hei
 def _screw_shapes(
     shaper: Shaper, body: mujoco.MjsBody, head: str, shank: str, head_name: str, shank_name: str
 ) -> tuple[mujoco.MjsGeom, mujoco.MjsGeom]:
-    """Add head and shank of a screw to a body. The body's origin is the point of the screw."""
+    """Add the head and the shank of a screw to a body. The body's origin is the point of the screw."""
     top = LENGTH + HEAD_HEIGHT
     first = shaper.cylinder(
         body, head, HEAD * MM, (0, 0, LENGTH * MM), (0, 0, top * MM), "screw", name=head_name

@@ -2,9 +2,9 @@
 
 A screw passes through gasket and top with .7 mm of play. The simulator does not know of this play, so it compares each
 shank with the twelve wedges around each hole. These comparisons take a fifth of the computing time of a clamped stack,
-and find nothing. Welds hold clamped layers to within some micrometres. If a shank is clear of both holes at the
-beginning of a servo period, it therefore touches neither hole during that period. Leaving the shank out changes no
-number of the simulation.
+and find nothing. Clamped layers are held by welds, and move by some micrometres at most. If a shank is clear of both
+holes at the beginning of a servo period, it therefore touches neither hole during that period. Leaving the shank out
+changes no number of the simulation.
 """
 
 from typing import Final
@@ -18,8 +18,8 @@ from handeye.core.small_arrays import span
 from handeye.tasks.water_pump.clamping import LAYERS, Clamping
 
 MARGIN: Final = 1e-4
-"""A shank is left out of the search for contacts if it is at least this distance (m) from the hole. Our choice: more
-than the few micrometres by which welds yield.
+"""A shank is left out of the search for contacts if it is at least this distance (m) from the wall of the hole. Our
+choice: more than the few micrometres by which welds yield.
 """
 
 

@@ -20,7 +20,7 @@ class LastLook:
     """The steps of a program that look at finished work."""
 
     claims: Mapping[str, tuple[ClaimProof, ...]]  # by the finding that rests on them
-    unnoticed: Mapping[str, float]  # by finding: its value up to which a failure may remain unnoticed
+    unnoticed: Mapping[str, float]  # by finding: the largest value at which a failure may remain unnoticed
 
     def passed(
         self,
@@ -31,7 +31,7 @@ class LastLook:
         begun: float,
     ) -> bool:
         """Return True if one of the faults spoiled the work that a failed finding concerns, and the program could not
-        notice this. The program cannot notice a change after its last look at this work, or a change that is too
+        notice this. The program cannot notice a change that comes after its last look at this work, or that is too
         small. The faults began at `begun` (s); `events` are those of the run since then.
         """
         return any(

@@ -126,7 +126,7 @@ def draw(
     number: int, seed: int, worlds: Sequence[tuple[int, Level]], starts: Sequence[Sequence[int]], catalogue: Catalogue,
     stage_of: Sequence[Sequence[int]],
 ) -> Schedule:  # fmt: skip
-    """Draw one schedule: the one with this number in the series that belongs to a seed. `starts` and `stage_of`
+    """Draw the schedule that has this number in the series of the seed. `starts` and `stage_of`
     contain one list for each world.
     """
     chance = random.Random(f"{seed} {number}")  # noqa: S311 - choices, not secrets

@@ -100,7 +100,7 @@ def _plain(snapshot: Snapshot) -> bytes:
 
 
 class EndOfStage(StopCondition, frozen=True, kw_only=True):
-    """Pause between two stages, but not before this number of steps is done."""
+    """Pause between two stages, once more than `after` steps are done."""
 
     after: int
 
@@ -125,8 +125,8 @@ class ScheduleResult(Record, frozen=True, kw_only=True):
     ended: str  # The kind of its last pause; `error`: an exception that should never occur
     broken: tuple[Violation, ...]
     unseen: tuple[Violation, ...] = ()
-    """Failed findings on a pump that the program reported as right. Empty unless the schedule's faults spoiled the
-    pump after the program's last look at the pump.
+    """Failed findings on a pump that the program reported as right, if the program could not notice the damage: a
+    fault of the schedule spoiled the pump after the program's last look at the pump, or the damage was too small.
     """
 
     @property

@@ -18,10 +18,10 @@ CALLS: Final = 3  # calls, at most
 def faults_for(
     mutant: Mutant, program: Program, graph: OutcomeGraph, catalogue: Catalogue, most: int
 ) -> list[Fault]:
-    """Return faults for which the program has the check that a mutant lacks. `most` is the greatest number of faults
-    to return. Faults that can begin at the mutant's stage come first, because their runs are short. Both these faults
-    and the other faults are sorted: first come the faults that fewer errors and calls identify. Of faults that differ
-    only in a number, only the first is returned.
+    """Return faults that the program should notice by the check that a mutant lacks. `most` is the greatest number of
+    faults to return. Faults that can begin at the mutant's stage come first, because their runs are short. Within each
+    of these two groups, the faults that the fewest errors and calls identify come first. Of faults that differ only in
+    a number, only the first is returned.
     """
     calls, stops = calls_of(mutant.steps, program, graph)
     kinds = [
@@ -61,8 +61,8 @@ def calls_of(steps: Sequence[int], program: Program, graph: OutcomeGraph) -> tup
 
 
 def _specific(program: Program, number: int) -> set[int]:
-    """Return the errors of a step's guards or, if the step only checks or examines, all its errors except that of the
-    watchdog.
+    """If a step has guards, return the errors of the guards. If a step without guards only checks or examines, return
+    all its errors except that of the watchdog.
     """
     operation = program.steps[number].operation
     if operation.guards:

@@ -26,7 +26,7 @@ class StageTime(Record, frozen=True, kw_only=True):
 
 
 class SearchPlaces(Record, frozen=True, kw_only=True):
-    """Numbers of places that the searches around one position tried."""
+    """How many places the searches around one position tried, as a distribution over these searches."""
 
     at: str
     n: int
@@ -37,7 +37,7 @@ class SearchPlaces(Record, frozen=True, kw_only=True):
 
 
 class Margin(Record, frozen=True, kw_only=True):
-    """The margin between a finding and its limit, over the judged trials, in the finding's unit."""
+    """How far a finding was from its limit in the judged trials, in the finding's unit."""
 
     finding: str
     unit: str
@@ -91,7 +91,7 @@ def stage_times(rows: Sequence[Row]) -> Iterator[StageTime]:
 
 
 def search_places(rows: Sequence[Row]) -> Iterator[SearchPlaces]:
-    """Yield the numbers of places tried, for each position around which the program searched."""
+    """For each position around which the program searched, yield how many places the searches tried."""
     ends = [end for row in rows for end in row.searches]
     for at in dict.fromkeys(end.at for end in ends):
         here = [end for end in ends if end.at == at]

@@ -82,14 +82,14 @@ def _goals(program: Program, events: Sequence[AnyEvent]) -> Iterator[str]:
 
 
 OUTCOMES: Final[Mapping[str, Standing]] = {"assembled": "right", "silent": "silent", "stopped": "wrong"}
-"""Outcomes of an assembly, in this order: the referee accepted the work; the program reported success, but the
-work is wrong; the program called the operator.
+"""Outcomes of an assembly. `assembled`: the referee accepted the work. `silent`: the program reported success, but the
+work is wrong. `stopped`: the program called the operator.
 """
 APART: Final[Mapping[str, Standing]] = {
     "apart": "right", "silent": "silent", "stopped": "wrong", "not built": "uncounted",
 }  # fmt: skip
-"""Outcomes of a dismantling, in this order: everything is back in its place; the program reported success, but
-something is out of place; the program called the operator; nothing had been built.
+"""Outcomes of a dismantling. `apart`: everything is back in its place. `silent`: the program reported success, but
+something is out of place. `stopped`: the program called the operator. `not built`: there was nothing to dismantle.
 """
 
 

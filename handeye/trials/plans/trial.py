@@ -1,4 +1,6 @@
-"""Executes one trial of a planned program, or of dismantling its product, and returns the row for the batch."""
+"""Executes one trial, and returns the row for the batch. A trial executes a planned program, or dismantles the product
+of the program.
+"""
 
 import hashlib
 from collections.abc import Callable, Sequence
@@ -44,8 +46,8 @@ class Trial:
     camera: str = "auto"
     without: tuple[str, ...] = ()
     on_stop: str = "abort"
-    """The rule that answers calls to the operator, in the words that `parse_policy` reads; the rule must not ask a
-    person.
+    """The rule that answers calls to the operator, as text for `parse_policy`. A rule that asks a person is not
+    allowed.
     """
     simulated_limit_s: float = SIMULATED_LIMIT_S
     cpu_limit_s: float = CPU_LIMIT_S
@@ -60,7 +62,7 @@ class Trial:
 
     @property
     def settings(self) -> dict[str, str]:
-        """Further settings that determine the trials, by name."""
+        """Settings of this kind of trial, by name. They determine the trials in addition to what `head` records."""
         return {}
 
     def __call__(self, case: Case) -> list[Row]:
@@ -107,7 +109,7 @@ def events_digest(events: list[AnyEvent]) -> str:
 
 
 def facts(done: FinishedRun, ended: Ended) -> dict[str, object]:
-    """Return the fields that the row of every kind of run has."""
+    """Return the fields that every row has, whatever the kind of its run."""
     steps = [event for event in done.runner.events if isinstance(event, StepStarted)]
     return {
         "ended": ended,

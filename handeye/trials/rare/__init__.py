@@ -1,1 +1,1 @@
-"""Estimates the probability of rare failures, and searches for the nearest worlds in which a program fails."""
+"""Estimates the probability of rare failures, and searches for the failing worlds whose errors are smallest."""

@@ -67,7 +67,9 @@ class Failing:
 
 @dataclass(slots=True, kw_only=True)
 class Campaign:
-    """Runs worlds and remembers what it found. Rows that are already in the folder are not repeated."""
+    """Runs the program in worlds, and remembers the results. Runs whose rows are already in the folder are not
+    repeated.
+    """
 
     trial: RareTrial
     space: WorldSpace
@@ -81,7 +83,7 @@ class Campaign:
     _points: tuple[Point, ...] = ()
 
     def first(self) -> tuple[RareRow, ...]:
-        """Run the worlds of level 0: the worlds of the seeds that follow the first seed."""
+        """Run the worlds of level 0. Their seeds are consecutive numbers that begin with the trial's seed."""
         if not self._first:
             seeds = range(self.trial.world.seed, self.trial.world.seed + self.runs)
             self._points = tuple(map(self.space.seeded, seeds))
@@ -113,7 +115,7 @@ class Campaign:
     ) -> tuple[RareRow, ...]:
         """Run the worlds of the given points. `places` gives the condition of each point, and its number within this
         condition. If `kept` is True, worlds in which the program fails are kept. Raises InvalidInput if a run ended
-        because this computer failed, so that its margin is unknown.
+        because this computer failed; the margin of such a run is unknown.
         """
         cases = [
             RareCase(
@@ -132,8 +134,8 @@ class Campaign:
         return rows
 
     def world(self, condition: str, point: Point) -> WorldSpec:
-        """Return the world of a point. At level 0, the world of a point is the world of a seed, the same world that
-        every other command makes from this seed.
+        """Return the world of a point. At level 0, this is the world of a seed, as every other command makes it from
+        this seed.
         """
         if condition == FIRST:
             return replace(self.trial.world, seed=point.noise)

@@ -38,8 +38,8 @@ class NearWorld(Record, frozen=True, kw_only=True):
 
 
 class Push(Record, frozen=True, kw_only=True):
-    """The mean deviations of one quantity in failing worlds, in standard deviations. They show how the quantity pushes
-    the program to fail.
+    """How far one quantity lies, on average, from its middle value in failing worlds, in standard deviations. The
+    signs show whether the program fails mostly at greater or at smaller values of this quantity.
     """
 
     quantity: str
@@ -50,7 +50,7 @@ class Push(Record, frozen=True, kw_only=True):
 
 @dataclass(slots=True)
 class _Descent:
-    """The search from one failing world."""
+    """The search for the nearest failing world, begun at one failing world."""
 
     begun: Failing
     tries: Generator[Array, bool, None]
@@ -60,7 +60,7 @@ class _Descent:
 
 
 def nearest(campaign: Campaign, kind: FailureKind, count: int, rounds: int) -> list[NearWorld]:
-    """Search from the `count` nearest failing worlds, with at most `rounds` runs for each."""
+    """Search from the `count` failing worlds whose errors are smallest, with at most `rounds` runs for each world."""
     descents = [_begun(campaign, each, rounds) for each in _chosen(campaign, kind, count)]
     for number in range(rounds):
         active = [each for each in descents if each.candidate is not None]
@@ -104,8 +104,8 @@ def simplified(numbers: Array, groups: Sequence[Sequence[int]], tries: int) -> G
 
 
 def pushes(campaign: Campaign, kind: FailureKind, found: Sequence[NearWorld]) -> list[Push]:
-    """Return, for each quantity, how it pushes the program to fail. The quantity that must deviate in most of the
-    nearest worlds comes first.
+    """Return, for each quantity, how far it deviates from its middle value in the failing worlds. The quantity that
+    must deviate in most of the nearest worlds comes first.
     """
     mine = [each for each in campaign.failing if each.kind == kind]
     if not mine:

@@ -1,4 +1,4 @@
-"""Shows as an HTML page what a search for rare failures found, in the style of the report of a run."""
+"""Makes the HTML page of a search for rare failures, in the style of the report of a run."""
 
 from collections.abc import Iterator, Sequence
 from math import isfinite
@@ -41,15 +41,17 @@ def estimates(found: Sequence[Estimated]) -> Iterator[Markup]:
     for each in found:
         yield section(each.failure, _TITLES[each.failure], element("p", sentence(each)), _levels(each))
     yield note(
-        "Each level is a sample of the worlds in which the margin of a run is at most the threshold of the level "
-        "before it. A share is the fraction of a level's runs that are within the level's own threshold. A run "
-        "usually has a margin of about 1; at 0, the program fails. The estimate is the product of the shares. The "
-        "estimate is not a bound."
+        "A run usually has a margin of about 1; at a margin of 0, the program fails. Each level is a sample of "
+        "worlds in which the margin is at most the threshold of the previous level. The share of a level is the "
+        "fraction of its runs with a margin of at most the level's own threshold. The product of all shares is the "
+        "estimate of the probability. The estimate is not a bound."
     )
 
 
 def worlds(failure: str, found: Sequence[NearWorld], pushing: Sequence[Push]) -> Iterator[Markup]:
-    """Yield the sections for the nearest failing worlds, and for the quantities that push the program to fail."""
+    """Yield the sections for the failing worlds whose errors are smallest, and for the quantities that make the
+    program fail.
+    """
     title = f"{_TITLES[failure]}: nearest worlds"
     if not found:
         yield section(f"{failure}-worlds", title, element("p", no_worlds(failure)))

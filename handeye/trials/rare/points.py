@@ -25,8 +25,8 @@ class WorldSpace:
     """
 
     def __init__(self, variation: Variation, base: WorldSpec) -> None:
-        """Make the space of the worlds that differ from `base` only in their seed. Raises InvalidInput if the base
-        does not fit the table.
+        """Make the space of the worlds that differ from `base` only in their seed. Raises InvalidInput if `variation`
+        does not allow the world `base`, for example because a quantity does not exist.
         """
         variation.check(base)
         self._variation, self._base = variation, base
@@ -43,8 +43,8 @@ class WorldSpace:
         return Point(np.array([*found], dtype=float), seed)
 
     def world(self, point: Point) -> WorldSpec:
-        """Return the world of a point. Errors can be scaled to four times their size. If a scaled value is beyond a
-        limit of its quantity, the value is set to the limit.
+        """Return the world of a point. A value that would be beyond a limit of its quantity is set to the limit; this
+        can happen because a user can scale errors to four times their size.
         """
         values = {
             name: self._value(each, float(number))
@@ -61,8 +61,8 @@ class WorldSpace:
         return np.clip(numbers, -self._widest, self._widest)
 
     def distance(self, numbers: Array) -> float:
-        """Return the distance of a world from the world in which every quantity is in the middle of its range, in
-        standard deviations.
+        """Return the distance (in standard deviations) between a world and the middle world, in which every quantity
+        is in the middle of its range.
         """
         return float(np.linalg.norm(self.deviations(numbers)))
 
@@ -90,7 +90,7 @@ class WorldSpace:
         return quantity.distribution.standard(np.random.default_rng(0)) is not None
 
     def _value(self, quantity: Quantity, number: float) -> float:
-        """Return the value of a quantity, SI."""
+        """Return the value of a quantity, in SI units."""
         factor = self._variation.factor(quantity, self._base) if quantity.distribution.is_error else 1.0
         nominal = quantity.nominal
         away = factor * (quantity.distribution.at(number, nominal) - nominal)

@@ -20,7 +20,8 @@ class Reserves(Observer):
     """Records, by name, the smallest reserves that a program had left: places of a search, rounds of a counted loop,
     and the distance (mm) of each measurement from the limit at which the program would have called the operator.
 
-    A check is left out if the next step tests for its error: if such a check fails, the program goes on in another way.
+    A check is left out if the next step tests for the error of the check: if such a check fails, the program does not
+    stop, but goes on in a different way.
     """
 
     def __init__(self, runner: Runner) -> None:

@@ -28,7 +28,7 @@ _USUAL: Final = 1.0  # margin of a run in which nothing limits the program
 
 
 class RareCase(Case, frozen=True, kw_only=True):
-    """A run in a world of its own."""
+    """A run in a world that no other run has."""
 
     world: WorldSpec
 
@@ -62,8 +62,8 @@ class Margin:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Usual:
-    """The reserves that runs usually have left: the medians over the first level. These medians make the parts of a
-    margin comparable.
+    """The usual reserves: for each part of a margin, the median over the runs of the first level. The medians make the
+    parts comparable.
     """
 
     program: Mapping[str, float]
@@ -92,8 +92,8 @@ class Usual:
 
 
 def usual(rows: Sequence[RareRow]) -> Usual:
-    """Return the reserves that the runs of a first level usually have left. A part is omitted if at least half of the
-    runs have nothing left of it: such a part does not show how close a run was to failing.
+    """Return the reserves that the runs of a first level usually have left. A reserve is omitted if at least half of
+    the runs have nothing left of it: such a reserve does not show how close a run was to failing.
     """
     judged = [limits_left(row.result.referee) for row in rows if row.result is not None]
     return Usual(program=_medians([row.left for row in rows]), referee=_medians(judged))
@@ -129,7 +129,7 @@ def _least(left: Mapping[str, float], known: Mapping[str, float]) -> Margin:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RareTrial(Trial):
-    """Runs a plan in the world of a case, and records the reserves that the program had left."""
+    """Runs a plan in the world of a case, and records how far the program was from each failure (its reserves)."""
 
     row: ClassVar[type[Row]] = RareRow
 

@@ -26,9 +26,9 @@ Papaioannou and others.
 FIRST_STEP: Final = 0.6  # Papaioannou and others
 SMALLEST_STEP: Final = 0.02
 REDRAWN: Final = 0.5
-"""Probability with which a candidate has new noise. The other candidates keep the noise of the state they come from.
-With new noise in every candidate, a failure that needs a rare noise would be lost at every step. The value is our
-choice.
+"""Probability with which a candidate has new noise. The other candidates keep the noise of the state from which they
+were made. If every candidate had new noise, each step would lose the failures that occur only with a rare noise. The
+value is our choice.
 """
 NORMAL_95: Final = 1.96  # standard deviations
 FAILED: Final = 0.0  # a run whose margin is not above this has failed
@@ -125,7 +125,9 @@ class _Walk:
         self._runs = self._accepted = 0
 
     def chains(self, length: int) -> list[_Chain]:
-        """Return chains with `length` states in all. All chains advance together, by one state in each round."""
+        """Return chains that have `length` states together. In each round, every chain that is not yet complete
+        advances by one state.
+        """
         least, more = divmod(length, len(self._seeds))
         lengths = [least + (number < more) for number in range(len(self._seeds))]
         chains = [[seed] for seed in self._seeds]
@@ -155,7 +157,9 @@ class _Walk:
         self._step = min(1.0, max(SMALLEST_STEP, step))
 
     def _candidate(self, point: Point) -> Point:
-        """Propose a world. If every proposal were accepted, the numbers would stay independent and standard normal."""
+        """Propose a world. If every proposal were accepted, the numbers of the worlds would stay independent and
+        standard normal.
+        """
         drawn, kept = self._rng.standard_normal(len(point.numbers)), math.sqrt(1 - self._step**2)
         redrawn, noise = self._rng.random() < REDRAWN, int(self._rng.integers(LARGEST_SEED, endpoint=True))
         return Point(kept * point.numbers + self._step * drawn, noise if redrawn else point.noise)
@@ -176,7 +180,7 @@ def _level(chains: Sequence[_Chain], told: Level) -> Level:
 
 def _threshold(margins: Sequence[float]) -> float:
     """Return the margin that a tenth of a sorted sample does not exceed. If most of the sample has this same margin,
-    return the next smaller one.
+    return the next smaller margin.
     """
     found = margins[math.ceil(SHARE * len(margins)) - 1]
     if found > FAILED and sum(margin <= found for margin in margins) > len(margins) / 2:

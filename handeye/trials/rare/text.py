@@ -53,7 +53,7 @@ def sentence(found: Estimated) -> str:
 
 
 def worlds_table(found: Sequence[NearWorld]) -> PlainTable:
-    """Return the table of the nearest failing worlds."""
+    """Return the table of the failing worlds whose errors are smallest."""
     table = PlainTable(("needs", "why it fails"), *WORLD_HEADS[:2])
     for each in found:
         table.row(needs(each), each.detail, f"{each.distance:.2f}", f"{each.found_at:.2f}")
@@ -70,7 +70,7 @@ def needs(world: NearWorld) -> str:
 
 
 def pushes_table(found: Sequence[Push]) -> PlainTable:
-    """Return the table of the quantities that push the program to fail."""
+    """Return the table of the quantities that make the program fail."""
     table = PlainTable(("quantity",), *PUSH_HEADS)
     for each in found[:PUSHES]:
         mean = "" if each.mean is None else f"{each.mean:+.2f}"

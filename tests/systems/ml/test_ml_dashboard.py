@@ -161,7 +161,7 @@ def test_the_command_shows_a_recorded_run_and_one_that_was_interrupted(command: 
     (("example.ml", "TT"), "there is no table `TT`; the tables are MT, ST"),
     (("example.ml", "MT", "13"), "there is no line 13: the lines are 1 to 12"),
     (("example.ml", "MT", "1", "17"), "there is no word 17: the words are 1 to 16"),
-    (("example.ml", "MT", "1", "1", "--at", "0"), "--at does not apply to the changes of a word in a whole run"),
+    (("example.ml", "MT", "1", "1", "--at", "0"), "with a word, the command shows the changes of this word"),
     (("example.ml", "--at", "9s"), "--at is after the end of the run, which has 1 cycle, numbered from 0"),
     (("example.ml", "--at", "soon"), "--at takes a cycle (275) or a time (2.75s), not `soon`"),
     (("example.ml", "MT", "--arm", "left"), "example.ml has no table MT of the left arm"),

@@ -288,4 +288,4 @@ def test_the_referee_of_the_bin_sees_a_wrong_part_passed_a_part_left_and_a_part_
 def test_a_bin_holds_one_to_twelve_parts(command: Command) -> None:
     for parts in ("0", "13"):
         code, _, said = command("ml", "bin", "--parts", parts, "--no-keep")
-        assert (code, said.count("the bin takes from 1 to 12 parts")) == (2, 1)
+        assert (code, said.count("the bin holds 1 to 12 parts")) == (2, 1)

@@ -70,7 +70,7 @@ def test_the_symbolic_programs_of_the_jobs_have_no_mistakes(
 
 
 def test_a_bin_takes_as_many_bars_as_the_bin_job() -> None:
-    with pytest.raises(NoSuchName, match="from 1 to 12 parts, not `40`"):
+    with pytest.raises(NoSuchName, match="the bin holds 1 to 12 parts, not `40`"):
         TYPEWRITER.hardware(job_plan("typewriter", "40"), WORLD, lambda _: None)
 
 

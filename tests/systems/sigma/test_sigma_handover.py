@@ -178,7 +178,7 @@ def test_the_referee_sees_what_is_wrong_with_a_piece_and_a_wrong_count() -> None
     assert found() == ["standing", "counted"]
     with pytest.raises(BadFile, match="touched"):
         witness.check(replace(witness.state(), touched_ms=-1))
-    with pytest.raises(BadFile, match="different pieces"):
+    with pytest.raises(BadFile, match="differ from the pieces on the board of this world"):
         witness.check(replace(witness.state(), pieces=()))
 
 

@@ -65,7 +65,7 @@ def test_no_flag_is_called_as_a_word_is() -> None:
     [
         ("10 LIMIT X5, 10", "X5 has no wrist that feels forces"),
         ("10 PRINT FORCE(X6)", "X6 has no wrist that feels forces"),
-        ("10 MOVE X5 TO 5\n20 PRINT BEAM(7)", "there is no arm 7, only hands 1 to 6"),
+        ("10 MOVE X5 TO 5\n20 PRINT BEAM(7)", "there is no light beam 7, only 1 to 6"),
         ("10 MOVE X7 TO 5", f"an axis ({', '.join(LINE_AXES)}) is expected here, but there is `X7`"),
         ("10 MOVE X1 TO", "a number, a variable or a function is expected here, but the line ends"),
         ("10 GOTO 30\n20 END", "there is no line 30"),

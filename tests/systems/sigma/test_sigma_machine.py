@@ -239,7 +239,7 @@ def test_the_hand_over_leaves_the_central_computer_idle_for_most_of_the_time() -
         (f"A = {' * '.join(['1E30'] * 11)}", "beyond the largest number"),
         ("A = POS(X1)", "NOTORIGINATED: POS(X1) needs an ORIGIN X1 first"),
         ("MOVE X1 BY 9000", "the goal of X1 is 9000 mm; a goal can be at most 1229 mm from 0"),
-        ("A = BEAM(1 + 2)", "there is no arm 3, only arms 1 and 2"),
+        ("A = BEAM(1 + 2)", "there is no light beam 3, only 1 and 2"),
         ("DELAY 0 - 1", "a delay must be between 0 and 86400 s, not -1"),
         ("CURVE X1, 1 / 2", "a curve must be 0, 1, 2, 3 or 4, not 0.5"),
         ("LIMIT Z1, 0 - 4", "a force limit must be between 0 and 655 N, not -4"),

@@ -59,7 +59,7 @@ def load_program(mos: "Interpreter", name: str) -> None:
 
 
 def replace_program(mos: "Interpreter", source: Source) -> None:
-    """Replace the stored program by the program of `source`, and end a running program. Raises BadFile if the new
+    """Replace the stored program by the program of `source`. If a program is running, end it. Raises BadFile if the new
     program has mistakes.
     """
     lines, found = parsed(source)

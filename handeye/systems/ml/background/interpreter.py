@@ -74,7 +74,9 @@ class Interpreter:
     # -- execution ------------------------------------------------------------------------------------
 
     def run(self, first: int | None = None) -> None:
-        """Start the stored program at a statement, or at its first statement. Raises MlError (M07, M14)."""
+        """Start the stored program at a statement, or at its first statement. Raises MlError if there is no such
+        statement (M07), or if an emergency has stopped the arm (M14).
+        """
         if why := self._emergency:
             raise MlError("M14", f"an emergency has stopped the arm: {why}; ENABLE the arm first")
         if first is None and not self.program.numbers:
@@ -176,8 +178,8 @@ class Interpreter:
         self.memory.typed[:] = [*self.memory.typed[1 - KEPT :], text]
 
     def again(self, *, onward: bool) -> None:
-        """After a stop, enable the arm. Then continue with the next statement if `onward` is true, or else with the
-        statement that was stopped. Raises MlError (M14) while the cause of an emergency persists.
+        """After a stop, enable the arm. Then continue with the next statement if `onward` is True, or with the
+        statement that was stopped if not. Raises MlError (M14) while the cause of an emergency persists.
         """
         memory = self.memory
         for level in (self._own, self.level):
@@ -228,7 +230,9 @@ class Interpreter:
         self._tell(Printed(time=self.time, text=text))
 
     def go(self, number: int) -> None:
-        """Continue at a statement. A typed branch starts the program at that statement. Raises MlError (M07)."""
+        """Continue at a statement. A typed branch starts the program at that statement. Raises MlError (M07) if there
+        is no such statement.
+        """
         self.program.statement(number)
         if self.memory.executing:
             self.memory.at = number
@@ -239,11 +243,11 @@ class Interpreter:
         self.memory.waits, self.memory.until = "until", cycle
 
     def variable(self, number: int) -> int:
-        """Return the value of a variable. Raises MlError (M05)."""
+        """Return the value of a variable. Raises MlError (M05) if there is no such variable."""
         return self.level.read("VR", _variable(number), 1)
 
     def set_variable(self, number: int, value: int) -> None:
-        """Set a variable. Raises MlError (M05)."""
+        """Set a variable. Raises MlError (M05) if there is no such variable."""
         self.level.write("VR", _variable(number), 1, value)
 
     def register(self, line: int, word: int) -> int:

@@ -1,4 +1,4 @@
-"""The motion commands, and POINT. No motion moves anything while the flag of a sensor is on."""
+"""The motion commands, and POINT. While the flag of any sensor is on, a motion command moves nothing."""
 
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Final
@@ -15,7 +15,9 @@ RECORD, CANCEL = 1, 2  # values of the first function key, in FK
 
 
 def start(mos: "Interpreter", goals: Mapping[int, int], *, wait: bool = True) -> None:
-    """Start a motion, and wait for its end. Raises MlError (M09, M10, M15)."""
+    """Start a motion, and wait for its end. Raises MlError if a motor is not installed (M09) or cannot go to its goal
+    (M10), or if the pump is off (M15).
+    """
     level = mos.level
     if level.start(goals):
         if wait:

@@ -72,11 +72,11 @@ class StoredProgram:
         self._numbers = None
 
     def between(self, first: int, last: int) -> list[int]:
-        """Return the sequence numbers in a range."""
+        """Return the sequence numbers of the stored statements in a range."""
         return self.numbers[bisect_left(self.numbers, first) : bisect_right(self.numbers, last)]
 
     def statement(self, number: int) -> Statement:
-        """Return a statement. Raises MlError (M07)."""
+        """Return a statement. Raises MlError (M07) if there is no such statement."""
         text = self.memory.statements.get(number)
         if text is None:
             raise MlError("M07", f"there is no statement {number}")
@@ -99,13 +99,15 @@ class StoredProgram:
     # -- points ---------------------------------------------------------------------------------------
 
     def fill(self, number: int, positions: Point) -> None:
-        """Give positions to a POINT. Raises MlError (M08)."""
+        """Give positions to a POINT. Raises MlError (M08) if there is no such POINT."""
         self.check_point(number)
         self.memory.points[number] = positions
         self._use(number)
 
     def point(self, number: int) -> Point:
-        """Return the positions of a POINT. Raises MlError (M08)."""
+        """Return the positions of a POINT. Raises MlError (M08) if there is no such POINT, or if the POINT was never
+        filled.
+        """
         self.check_point(number)
         if number not in self.memory.points:
             raise MlError("M08", f"POINT {number} was never filled; DEFPOINT {number} fills it")

@@ -16,13 +16,13 @@ if TYPE_CHECKING:
     from handeye.systems.ml.background.interpreter import Interpreter
 
 NUMBERS: Final = {code: number for number, code in enumerate(COMMANDS, 1)}
-"""The number that stands for each command in the tables TK, TR and CC."""
+"""The number of each command. The tables TK, TR and CC contain this number instead of the command's name."""
 _SIGN: Final = 8  # the bit above the three bits for the number of ampersands
 _PACKED: Final = 4  # parameters whose forms fit into a word
 
 
 def show_tables(mos: "Interpreter", level: Level) -> None:
-    """Connect tables of the real-time level to the data that the interpreter keeps."""
+    """Let some tables of the real-time level show the data that the interpreter keeps."""
     tables: dict[str, View] = {
         "TK": TaskTable(mos.program), "PT": RecentPoints(mos.program), "CC": CommandCodes(), "ER": ErrorTexts(),
         "TR": TraceBuffer(mos), "LG": SessionLog(mos), "HL": HostLink(mos),

@@ -1,1 +1,3 @@
-"""The rectilinear arm with physics, behind the ports of the real-time level."""
+"""The rectilinear arm with physics. The real-time level drives this arm through the same ports as an arm with perfect
+motors.
+"""

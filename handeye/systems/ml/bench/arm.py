@@ -83,7 +83,7 @@ class RectilinearArm(Axes, Mechanism[ArmState]):
     period = CYCLE
 
     def __init__(self, bench: Bench, world: ArmWorld) -> None:
-        """Put the arm in the scene of a bench. Its pump is off."""
+        """Put the arm in the scene of a bench. The arm's pump is off."""
         self._bench, self._world = bench, world
         self._width = world.value(drawn.REPEATABILITY)
         self._offsets = np.zeros(len(AXES))

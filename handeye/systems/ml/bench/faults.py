@@ -75,7 +75,8 @@ def planted(
     Args:
         calls: the messages that name the fault.
         harmless: why the work can succeed despite the fault; empty if the program must notice the fault.
-        when: `before` if the fault is present from the start; `later` if the fault can also begin after a time.
+        when: `before` if the fault is present from the start; `later` if the fault can also begin some time after the
+            start.
     """
     expected = ExpectedDetection(calls=calls, harmless=harmless)
     return FaultKind(name=name, meaning=meaning, size=size, when=when, expected=expected)
@@ -97,7 +98,7 @@ def arm_of(bench: Bench, world: ArmWorld) -> RectilinearArm:
 
 
 class FaultyArm(RectilinearArm):
-    """The arm with faults, each of which is present from the start, or begins after a time."""
+    """The arm with faults. Some faults are present from the start; others begin after a time."""
 
     def __init__(self, bench: Bench, world: ArmWorld) -> None:
         faults = () if world.spec is None else world.spec.faults

@@ -78,7 +78,7 @@ class LeftArm(Axes, Mechanism[LeftState]):
     period = CYCLE * LEFT.every
 
     def __init__(self, bench: Bench) -> None:
-        """Find the arm in the scene of a bench. Its power is off."""
+        """Find the arm in the scene of a bench. The power of the arm is off."""
         named = [replace(spec, name=f"{PREFIX}{_JOINTS.get(spec.name, spec.name)}") for spec in AXES]
         self._servos = BenchAxes(
             bench, named, period=self.period, name="left_servos", channels={TOUCH: _touched}
@@ -112,7 +112,7 @@ class LeftArm(Axes, Mechanism[LeftState]):
 
     def check(self, state: LeftState) -> None:
         if not {*state.signalled} <= {*INTERLOCKS}:
-            raise BadFile("the saved left arm has different interlocks")
+            raise BadFile("the saved left arm has an interlock that this arm does not have")
 
     def restore(self, state: LeftState) -> None:
         self._signalled = state.signalled

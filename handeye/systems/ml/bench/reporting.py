@@ -1,4 +1,4 @@
-"""Programs that end by printing two numbers. The first number is 0 if all went well, or else the number of a trouble.
+"""Programs that end by printing two numbers. The first number is 0 if all went well, or else the number of a problem.
 The second number is a count.
 """
 
@@ -70,7 +70,7 @@ class Listener(Mechanism[Printed]):
 
 
 class ReportingHardware(StationHardware):
-    """A station whose program reports a trouble by printing its number."""
+    """A station whose program reports a problem by printing the number of the problem."""
 
     def __init__(self, station: Station, tell: Tell, troubles: Mapping[str, str]) -> None:
         """Open a station.
@@ -98,12 +98,12 @@ class ReportingHardware(StationHardware):
         return Ending(done=False, text=f"{self._troubles[trouble]} ({self.counted(count.strip() or '0')})")
 
     def counted(self, count: str) -> str:
-        """Describe in words the count that the program prints after the number of a trouble."""
+        """Describe in words the count that the program prints after the number of a problem."""
         return f"done before: {count}"
 
 
 class ReportingTask(ArmTask):
-    """A job whose program reports a trouble by printing its number."""
+    """A job whose program reports a problem by printing the number of the problem."""
 
     quantities: ClassVar[Variation]
     troubles: ClassVar[Mapping[str, str]]

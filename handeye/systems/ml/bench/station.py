@@ -63,7 +63,8 @@ class Station:
                 motors begin at 0.
             tools: a dictionary from the names of tools of the station to the functions that switch them. Other tools do
                 nothing.
-            others: further mechanisms of a job. The cell stores their states, but they do nothing as time passes.
+            others: further mechanisms of a job. The cell stores the states of these mechanisms, but the mechanisms do
+                nothing as time passes.
             left: True if the scene also has the left arm.
         """
         self.bench = Bench(spec.compile())

@@ -14,7 +14,7 @@ TROUBLES: Final = {
     "5": "the fingers do not open",
     "6": "a part stays in the open hand",
     "7": "the hand cannot go down into a box",
-    "8": "the bin is empty, but the boxes hold fewer parts than were poured in",
+    "8": "the bin is empty, but the boxes hold fewer parts than were poured into the bin",
 }  # sentences by the numbers that the program prints
 _LEFT, _LOST, _RANGE, _GAUGE, _SHUT, *_, _MISSING = calls_of(TROUBLES)
 EMPTY, WIDE, HEAVY = "bin.empty", "part_1.wide", "part_1.heavy"

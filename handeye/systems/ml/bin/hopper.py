@@ -32,8 +32,8 @@ PADS: Final = [0.999, 0.999, 0.0005, 0.5, 2.0]
 
 In MuJoCo, contacts held by friction creep. With the arm's usual impedance of .95 to .99, a part that is held aslant
 turns. If a freeze then stops the fingers, they lose a quarter to a third of their force each half second. With the
-impedance given here, they lose 1 percent. But the fingers then shake out a part of .5 kg; with an impedance of .9999,
-the fingers shake out even a part of 26 g.
+impedance given here, they lose 1 percent. With this impedance, however, the fingers shake out a part of .5 kg. With an
+impedance of .9999, they shake out even a part of 26 g.
 """
 _ENAMEL: Final = [0.45, 0.33, 0.24, 1]
 _COLOURS: Final = {"good": [0.30, 0.45, 0.32, 1], "bad": [0.52, 0.26, 0.24, 1]}

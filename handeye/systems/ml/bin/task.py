@@ -99,7 +99,9 @@ class Pile(Mechanism[Poured]):
 
     def check(self, state: Poured) -> None:
         if state != self.poured:
-            raise BadFile("different parts lay in the bin of the saved run")
+            raise BadFile(
+                "the parts in the bin of the saved run differ from the parts in the bin of this world"
+            )
 
     def restore(self, state: Poured) -> None:
         self.poured = state
@@ -120,7 +122,7 @@ class Sorter(ReportingHardware):
 
 
 class Bin(ArmTask):
-    """Take parts out of a bin, and judge them."""
+    """Take parts out of a bin, and sort them into boxes."""
 
     name = "bin"
     words = Words(product="the sorted parts", done="The bin is empty, and each part is in its box.")
@@ -132,7 +134,7 @@ class Bin(ArmTask):
         return FAULTS
 
     def station(self, parts: int, world: ArmWorld) -> Station:
-        """Return the station with two boxes and a hopper, into which the parts fall when the simulation begins."""
+        """Return the station with two boxes and a hopper. The parts fall into the hopper when the simulation begins."""
         spec = scene(world, wand=False)
         add_hopper(spec, world.value(SMOOTH))
         add_boxes(spec)
@@ -177,7 +179,7 @@ class Bin(ArmTask):
 
 
 def poured(spec: mujoco.MjSpec, world: ArmWorld, parts: int, place: Place = ORIGIN) -> Pile:
-    """Put parts above a hopper, into which they fall when time begins.
+    """Put parts above a hopper. When the simulation begins, the parts fall into the hopper.
 
     Args:
         place: where the middle of the hopper is in the scene (m).
@@ -218,7 +220,7 @@ def parts_of(plan: MlPlan) -> int:
     """
     if plan.variant.isdecimal() and 1 <= int(plan.variant) <= MOST:
         return int(plan.variant)
-    raise NoSuchName(f"the bin takes from 1 to {MOST} parts, not {quoted(plan.variant)}")
+    raise NoSuchName(f"the bin holds 1 to {MOST} parts, not {quoted(plan.variant)}")
 
 
 def _quality(world: ArmWorld, number: int) -> Quality:

@@ -34,14 +34,14 @@ FAULTS: Final = Catalogue(
     arm_fault("potentiometer.z.stuck"),
     planted(MISSING, "There is no first block.", _NONE),
     planted(
-        MOVED, "The second block lies off its place along x; the value is the distance.", _MET, _NONE,
+        MOVED, "The second block is displaced along x by this distance.", _MET, _NONE,
         size=Size(unit="mm", usual=30.0, limits=(15.0, 60.0)),
     ),
     planted(SMALL, "The side of the first block is 8 mm too short.", _NONE),
     planted(LARGE, "The side of the third block is 6 mm too long.", _MET, _NONE),
     planted(OCCUPIED, "A block already stands where the stack is to be built.", _HIGH),
     planted(
-        SLIPPERY, "The blocks are oiled; the value is the friction coefficient of the blocks.",
+        SLIPPERY, "The blocks are oiled: their friction coefficient has this value.",
         harmless="The fingers press with 90 N, and a block weighs only 16 g.",
         size=Size(unit="", usual=0.1, limits=(0.01, 0.3)),
     ),

@@ -126,7 +126,7 @@ class Blocks(ReportingTask):
 def _lay(
     spec: mujoco.MjSpec, name: str, half: float, at: tuple[float, float], turned: float, friction: float
 ) -> None:
-    """Lay a block on the table, at x and y of the slides (m)."""
+    """Lay a block on the table. `at` is its place, in the coordinates x and y of the slides (m)."""
     import mujoco
 
     turn = [np.cos(turned / 2), 0, 0, -np.sin(turned / 2)]

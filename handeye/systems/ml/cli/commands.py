@@ -154,7 +154,7 @@ def assemble(
     ] = None,
     overwrite: Overwrite = False,
 ) -> int:
-    """Assemble a symbolic program: names become the numbers of statements, variables and sensors.
+    """Assemble a symbolic program: replace the names of statements, variables and sensors by their numbers.
 
     Exit code 0: the program was assembled; 2: bad input, or a program with errors.
     """

@@ -25,7 +25,7 @@ def follow(
     errors: OwnErrorOptions = ANY_OWN_ERRORS,
     options: FaultyJobOptions = ANY_FAULTY_RUN,
 ) -> int:
-    """Follow the outline of a plate by touch. The program is that of the paper. A wand signals when it touches the
+    """Follow the outline of a plate by touch, with the program of the paper of 1975. A wand signals when it touches the
     plate.
 
     `plans/curve_follower.ml` is figure 5 of the paper as printed, and never ends by itself. The run ends when the wand

@@ -15,8 +15,8 @@ FORM: Final = "SENSOR=READING, SENSOR=READING@MOTOR:POSITION or SENSOR=READING@S
 
 
 def sensed(text: str) -> Stimulus:
-    """Parse a value of --sense, which says what a sensor or an interlock reads. The reading holds always, or from a
-    given time on, or while a motor is at least as far from 0 as a given position. Raises BadArgument.
+    """Parse a value of --sense, which says what a sensor or an interlock reads, and when: at all times, after a given
+    time, or while a motor is at a given position or farther from 0. Raises BadArgument if the text has another form.
     """
     match = _FORM.fullmatch(text)
     if match is None or not all(fits(int(each or 0)) for each in (match[2], match[4])):

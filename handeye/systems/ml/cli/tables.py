@@ -1,4 +1,4 @@
-"""The command that shows the tables of a machine at any cycle."""
+"""The command that shows the tables of a machine as they were in a given cycle."""
 
 import re
 from pathlib import Path
@@ -51,7 +51,7 @@ def tables(
     ] = None,
     json: Json = False,
 ) -> int:
-    """Show the tables of MOS as they were in any cycle of a run.
+    """Show the tables of MOS as they were in a cycle of your choice.
 
     Everything that MOS knows is in 30 tables. MT has a line for each motor, and ST has one for each sensor; VR has the
     variables, and TK has the program. Every ML run records each word that changes, cycle by cycle. An asterisk marks a
@@ -83,7 +83,7 @@ def tables(
         )
     if at is not None:
         raise BadArgument(
-            "--at does not apply to the changes of a word in a whole run; omit the word, or omit --at"
+            "with a word, the command shows the changes of this word in the whole run; omit the word, or omit --at"
         )
     return answer(text.one_word(done, segment, line, word), text.course(done, segment, line, word), json=json)
 
@@ -99,7 +99,7 @@ def _known(table: str) -> str:
 
 
 def _cycle(at: str | None, done: "History") -> int:
-    """Return the cycle that `--at` gives. Raises BadArgument."""
+    """Return the cycle that `--at` gives. Raises BadArgument if it is not a cycle of the run."""
     from handeye.systems.ml.machine.spec import CYCLES_PER_SECOND
 
     if at is None:
@@ -116,7 +116,7 @@ def _cycle(at: str | None, done: "History") -> int:
 
 
 def _recorded(run: Path) -> "History":
-    """Return the tables of a run in a folder. Raises BadFile."""
+    """Return the tables of a run in a folder. Raises BadFile if the folder has no tables of a run."""
     from handeye.runs.folder import check_holds_run
     from handeye.systems.ml.dashboard.kept import kept_history
 
@@ -131,7 +131,7 @@ def _recorded(run: Path) -> "History":
 
 
 def _ran(file: Path, sense: list[str] | None) -> "History":
-    """Run a program on perfect motors, and return its tables. Raises InvalidInput."""
+    """Run a program on perfect motors, and return its tables. Raises InvalidInput if the program cannot be run."""
     from handeye.core.source import read_source
     from handeye.core.variation import WorldSpec
     from handeye.runs.advance import advance

@@ -45,8 +45,8 @@ def touch(
     presses.
 
     The hand descends until the reading of a strain gauge is beyond its limit. The simulation shows what the ten
-    milliseconds of MOS mean: after the contact, the slide goes on until the sensors are read again, and then for as
-    long as its servo lags behind. `docs/ten_milliseconds.md` has the figures.
+    milliseconds of MOS mean: after the contact, the slide moves on until the sensors are read again. Then it moves on
+    until its servo has caught up with the set-point. `docs/ten_milliseconds.md` has the figures.
 
     Exit code 0: simulated; 2: bad input.
     """

@@ -88,8 +88,8 @@ class History:
         return course is not None and course.changed(cycle)
 
     def used(self, segment: Segment) -> list[int]:
-        """Return the lines of a table that are connected to a device or that change. If no line of the table
-        is connected to a device, return the lines that are not always 0.
+        """Return the lines of a table that are connected to a device, and the lines that change. If no line of the
+        table is connected to a device, return all lines that are not always 0.
         """
         labels = line_labels(segment.side, segment.table)
         return sorted(
@@ -141,7 +141,7 @@ def packed(done: History) -> bytes:
 
 
 def unpacked(data: bytes, name: str) -> History:
-    """Read a history from a compressed file. Raises BadFile."""
+    """Read a history from a compressed file. Raises BadFile if the file is not a valid history."""
     reader = zlib.decompressobj(wbits=31)
     try:
         stream = reader.decompress(data, _EXPANDED)

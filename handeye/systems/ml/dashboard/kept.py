@@ -16,7 +16,7 @@ _LARGEST: Final = 50_000_000  # bytes
 
 def kept_history(folder: Path) -> History | None:
     """Return the tables of a run. If the run was interrupted, the tables end at the run's newest checkpoint. Returns
-    None if the folder has no tables. Raises BadFile.
+    None if the folder has no tables. Raises BadFile if the file of the tables is not valid.
     """
     path = folder / TABLES
     if path.is_file():

@@ -125,7 +125,7 @@ class TapeRecorder:
             self._compare()
 
     def statement(self) -> None:
-        """Record what a statement has changed, and add everything to the tape."""
+        """Record what a statement has changed, and add all changes since the previous statement to the tape."""
         self._fast.take(self._machine.now)
         self._look(self._events + self._others, self._machine.now)
         self._compare()
@@ -222,7 +222,7 @@ def _compare(row: list[int], base: int, was: Sequence[int], now: Sequence[int]) 
 
 
 class _Source(ABC):
-    """A table, with what it contained before."""
+    """A table and its earlier contents."""
 
     @abstractmethod
     def look(self, row: list[int]) -> None:

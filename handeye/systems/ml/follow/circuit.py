@@ -35,7 +35,7 @@ Turn = Literal["", "left", "right"]
 
 
 class Felt(Record, frozen=True, kw_only=True):
-    """What a follower has felt, as its computer knows it. Places are given as x and y, in units of the slides."""
+    """What a follower has felt, as far as its computer knows. Places are given as x and y, in units of the slides."""
 
     touches: tuple[Point, ...] = ()
     left: int = 0  # turns
@@ -48,7 +48,7 @@ class Felt(Record, frozen=True, kw_only=True):
 
     @property
     def turns(self) -> int:
-        """Left turns minus right turns, without the turns of squares in which nothing was touched."""
+        """Left turns minus right turns. Left turns around a square in which the wand touched nothing do not count."""
         return self.left - self.right - ROUND * self.idle
 
     @property
@@ -83,7 +83,8 @@ class Felt(Record, frozen=True, kw_only=True):
         """The end of the run in words."""
         felt = (
             f"{counted(len(self.touches), 'touch')}, {counted(self.left, 'left turn')}, "
-            f"{counted(self.right, 'right turn')}, {counted(self.idle, 'square')} of one step without a touch"
+            f"{counted(self.right, 'right turn')}, {counted(self.idle, 'square')} of one step around which the wand "
+            "touched nothing"
         )
         if self.closed:
             return f"the circuit is closed: {felt}"

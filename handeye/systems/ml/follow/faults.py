@@ -18,12 +18,12 @@ FAULTS: Final = Catalogue(
     arm_fault("potentiometer.y.stuck"),
     planted(MISSING, "No plate lies on the table.", _NOTHING),
     planted(
-        MOVED, "The plate lies off its place along x; the value is the distance.", _NOTHING,
-        harmless="The follower finds the plate if the plate lies ahead of it.",
+        MOVED, "The plate is displaced along x by this distance.", _NOTHING,
+        harmless="The follower finds the plate if the plate lies ahead of the wand.",
         size=Size(unit="mm", usual=30.0, limits=(-60.0, 60.0)),
     ),
     planted(
-        SLIPPERY, "The table is oiled; the value is the friction coefficient between plate and table.",
+        SLIPPERY, "The table is oiled: the friction coefficient between plate and table has this value.",
         harmless="The force of the wand is too small to move the plate.",
         size=Size(unit="", usual=0.1, limits=(0.01, 0.25)),
     ),

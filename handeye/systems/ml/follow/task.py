@@ -59,7 +59,8 @@ VARIATION: Final = Variation(
         "deg",
         Noise(0.1),
         10.0,
-        "Standard deviation of the plate's rotation. No source: our choice, for a plate laid along a line.",
+        "Standard deviation of the plate's rotation. No source: our choice, for a plate that a person aligns with "
+        "a line on the table.",
     ),
     quantity(
         _FRICTION,
@@ -92,7 +93,7 @@ class Plate(Mechanism[Laid]):
 
     def check(self, state: Laid) -> None:
         if state != self.laid:
-            raise BadFile("a different plate lay on the table in the saved run")
+            raise BadFile("the plate in the saved run differs from the plate in this run")
 
     def restore(self, state: Laid) -> None:
         self.laid = state
@@ -111,7 +112,10 @@ class Tracker(Mechanism[Felt]):
 
     def check(self, state: Felt) -> None:
         if len(state.touches) > LONGEST or not np.isfinite(state.touches).all():
-            raise BadFile("the saved touches of the follower are too many, or not finite numbers")
+            raise BadFile(
+                "the follower has too many saved touches, or a saved touch contains a value that is not a finite "
+                "number"
+            )
 
     def restore(self, state: Felt) -> None:
         self.felt = state

@@ -3,7 +3,7 @@ sensors.
 
     WAND EQU 1              a constant, such as the number of a sensor
     COUNT VAR               a variable, whose number the assembler chooses: `ADD COUNT 1`, `PRINT &COUNT`
-    HOME: POINT             a label is the number of its statement, so that a POINT has a name
+    HOME: POINT             a label, which stands for the number of its statement
     AGAIN: SENSOR WAND -1 1
     BRANCH HOME AGAIN WAND
 
@@ -68,7 +68,7 @@ def assembled(source: Source) -> tuple[str, list[Diagnostic]]:
 
 
 def _rows(text: str, start: int) -> list[tuple[str, int]]:
-    """Return the rows of a text that begins at an offset, each with its offset."""
+    """Split a text into rows. `start` is the offset of the text; each row is returned with its own offset."""
     rows = []
     for row in text.split("\n"):
         rows.append((row.removesuffix("\r"), start))

@@ -86,7 +86,7 @@ _ROWS: Final[dict[Category, tuple[tuple[str, str, str, str], ...]]] = {
         ("BRANCH", "n1 [n2 [s ...]]", (
             "Without n2, go to n1. With n2, go to n1 if at least one listed sensor fulfils its condition, and to "
             "n2 if none does. The condition of s is that its flag is on, and the condition of -s is that its flag "
-            "is off. If no sensors are listed, the flags of all sensors count."
+            "is off. If no sensors are listed, go to n1 if any flag is on, and to n2 if none is."
         ),
          "400 BRANCH 500 410 5 14"),
         ("BRCOMP", "n1 [n2]", (
@@ -101,10 +101,12 @@ _ROWS: Final[dict[Category, tuple[tuple[str, str, str, str], ...]]] = {
         ("GOSUB", "n", "Go to a subroutine. A subroutine cannot call another subroutine with GOSUB.", "60 GOSUB 900"),
         ("IF", "x n1 n2 n3", "Go to n1 if x is less than zero, to n2 if it is zero, to n3 if it is greater.",
          "70 IF &1 100 200 300"),
-        ("LOOPI", "x [v]", "Repeat the statements up to NEXTI, so that they run x times. Variable v counts the times, "
-                           "from 1.", "10 LOOPI 3 20"),
-        ("LOOPJ", "x [v]", "Repeat the statements up to NEXTJ, so that they run x times. LOOPJ may be inside LOOPI, "
-                           "and LOOPI inside LOOPJ.",
+        ("LOOPI", "x [v]", (
+            "Run the statements from here to NEXTI x times. Variable v counts the times, from 1."
+        ), "10 LOOPI 3 20"),
+        ("LOOPJ", "x [v]", (
+            "Run the statements from here to NEXTJ x times. LOOPJ may be inside LOOPI, and LOOPI inside LOOPJ."
+        ),
          "20 LOOPJ 4"),
         ("NEXTI", "", "The end of the statements that LOOPI repeats.", "80 NEXTI"),
         ("NEXTJ", "", "The end of the statements that LOOPJ repeats.", "70 NEXTJ"),
@@ -143,8 +145,8 @@ _ROWS: Final[dict[Category, tuple[tuple[str, str, str, str], ...]]] = {
     ),
     "data": (
         ("POINT", "", (
-            "A place for the positions of 12 motors. DEFPOINT and JOY fill this place. The statement does nothing when "
-            "it is executed."
+            "A place for the positions of 12 motors. DEFPOINT and JOY fill this place. When POINT is executed, it "
+            "does nothing."
         ), "5 POINT"),
     ),
     "arithmetic": (

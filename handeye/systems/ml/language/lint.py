@@ -39,7 +39,7 @@ class Watch(NamedTuple):
     speeds: tuple[tuple[int, int], ...] = ()  # speeds of slides (units per cycle) that the program has set
 
     def joined(self, other: "Watch") -> "Watch":
-        """Return what is known where two paths meet."""
+        """Return what is known about the sensors before a statement at which this path and another meet."""
         limits, speeds, others = dict(self.limits), dict(self.speeds), dict(other.speeds)
         both = {sensor: min(limit, limits[sensor]) for sensor, limit in other.limits if sensor in limits}
         faster = {
@@ -88,7 +88,7 @@ def _unguarded(
 
 
 def watched(flow: Flow) -> dict[int, Watch]:
-    """Return what is known before each statement that can be reached."""
+    """Return what is known about the sensors before each statement that can be reached."""
     known: dict[int, Watch] = {}
     todo = [(flow.numbers[0], Watch())] if flow.numbers else []
     while todo:
@@ -106,7 +106,7 @@ def watched(flow: Flow) -> dict[int, Watch]:
 
 
 def _passed(statement: Statement, watch: Watch) -> Watch:
-    """Return what is known after a statement."""
+    """Return what is known about the sensors after a statement."""
     limits, speeds = dict(watch.limits), dict(watch.speeds)
     match statement.code, statement.parameters:
         case "SENSOR", ():

@@ -1,1 +1,1 @@
-"""Arms as the real-time level sees them, and perfect motors."""
+"""The arms as the real-time level sees them, and a simulation of arms with perfect motors."""

@@ -139,7 +139,9 @@ class PerfectArm(Axes, Outputs):
         self.memory.switches[channel] = value
 
     def remember(self, memory: PerfectMemory, cycles: int) -> None:
-        """Continue at a cycle from a copy of a state. Raises BadFile if the state belongs to another arm."""
+        """Copy a saved state, and continue from this copy at the given cycle. Raises BadFile if the state belongs to
+        another arm.
+        """
         count = len(self._specs)
         names = {each.name for each in self._channels}
         if (

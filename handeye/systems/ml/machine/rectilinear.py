@@ -114,6 +114,6 @@ LEFT: Final = ArmSpec(
     wand=(1, 1),
     every=2,
 )
-"""A left arm of very dissimilar design, the Purbrick arm: fewer motors, other travels, lower speeds, and a period of
-two cycles.
+"""A left arm whose design differs greatly from that of the right arm: the Purbrick arm. It has fewer motors, different
+travels, lower speeds, and a period of two cycles.
 """

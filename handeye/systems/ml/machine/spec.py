@@ -67,7 +67,7 @@ def analog(point: int) -> SensorLine:
 
 
 def digital(word: int, mask: int) -> SensorLine:
-    """Return the line of a digital sensor: 1 if the input is on."""
+    """Return the line of a digital sensor, whose reading is 1 if the input is on."""
     return SensorLine(kind=DIGITAL, input=word, mask=mask)
 
 

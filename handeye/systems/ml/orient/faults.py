@@ -41,12 +41,12 @@ FAULTS: Final = Catalogue(
     planted(WIDE, "The bar is 3 mm too wide.", _NONE),
     planted(SHORT, "The bar is 4 mm too short."),
     planted(
-        CRADLE, "The cradle with its bar stands off its place along x; the value is the distance.", _MET, _NONE,
+        CRADLE, "The cradle with its bar is displaced along x by this distance.", _MET, _NONE,
         size=Size(unit="mm", usual=30.0, limits=(20.0, 60.0)),
     ),
     planted(NO_STOP, "There is no stop.", _NO_STOP),
     planted(
-        STOP, "The stop stands off its place along y; the value is the distance.",
+        STOP, "The stop is displaced along y by this distance.",
         size=Size(unit="mm", usual=5.0, limits=(2.0, 20.0)),
     ),
 )  # fmt: skip

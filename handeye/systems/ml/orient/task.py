@@ -173,7 +173,7 @@ def add_stop(spec: mujoco.MjSpec, world: ArmWorld, place: tuple[int, int], moved
     the world.
 
     Args:
-        moved: how far the stop is displaced along y (m).
+        moved: a further displacement of the stop along y (m).
     """
     import mujoco
 

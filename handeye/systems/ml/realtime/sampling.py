@@ -34,7 +34,9 @@ def packed(bits: Sequence[object]) -> int:
 
 
 def scaled(count: int, line: MotorLine | SensorLine) -> int:
-    """Convert a count to the units of a line of MT or ST, before the offset is subtracted. Raises ProgramCheck."""
+    """Convert a count to the units of a line of MT or ST, before the offset is subtracted. Raises ProgramCheck if the
+    denominator of the line is 0.
+    """
     if not line.denominator:
         raise ProgramCheck
     if line.numerator == line.denominator:
@@ -44,7 +46,7 @@ def scaled(count: int, line: MotorLine | SensorLine) -> int:
 
 def sensed(line: SensorLine, analog: Sequence[int], digital: Sequence[int]) -> int:
     """Return the reading of a logical sensor before its offset is subtracted; 0 if the sensor is not connected. Raises
-    ProgramCheck.
+    ProgramCheck if the denominator of the line is 0.
     """
     if not line.input:
         return 0

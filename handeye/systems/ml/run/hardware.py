@@ -52,7 +52,7 @@ class Hardware(ABC):
 
     @property
     def memory(self) -> dict[Side, PerfectMemory]:
-        """The state that is kept outside the cell."""
+        """The part of the hardware's state that the cell does not store."""
         return {}
 
     def remember(self, memory: Mapping[Side, PerfectMemory]) -> None:
@@ -116,4 +116,4 @@ class StationTask(AnyTask):
 
     @abstractmethod
     def hardware(self, plan: MlPlan, world: WorldSpec, tell: Tell) -> Hardware:
-        """Open the station of a plan in a world."""
+        """Build the station of a plan in a world, and return its hardware."""

@@ -276,8 +276,8 @@ class RunningMl(NumberedRun):
         self.recorder.statement()
 
     def interject(self, text: str, task: str) -> None:
-        """Execute a FILE in the middle of a statement. The real-time level uses the written words from its next cycle
-        on.
+        """Execute the command FILE in the middle of a statement. The real-time level uses the written words in its
+        next cycle and later.
         """
         side = task or "right"
         if side not in self.interpreters:

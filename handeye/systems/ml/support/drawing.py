@@ -79,8 +79,8 @@ PARTS_VARY: Final = (
         "mm",
         Noise(0.1),
         5.0,
-        "Standard deviation of a part's position on its pallet along x and y. No source: our choice, for .2 mm of "
-        "play.",
+        "Standard deviation of a part's position on its pallet along x and y. No source: our choice, which suits a "
+        "play of .2 mm between part and pallet.",
     ),
     quantity(
         _TURNED,
@@ -133,12 +133,12 @@ class Lie(NamedTuple):
 
 
 def mm(x: float, y: float) -> Place:
-    """Convert a place of the slides, whose y points away from the base, to scene coordinates."""
+    """Convert a place of the slides to scene coordinates. The y axis of the slides points away from the base."""
     return Place(x * UNIT, -y * UNIT)
 
 
 def row(places: tuple[tuple[int, int], tuple[int, int]], number: int) -> tuple[int, int]:
-    """Return one of the places in a row. All neighbours in the row have the same distance."""
+    """Return one of the places in a row. The distance between neighbours is the same along the whole row."""
     (x, y), (dx, dy) = places
     return x + number * dx, y + number * dy
 

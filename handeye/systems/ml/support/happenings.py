@@ -19,7 +19,7 @@ FOUND: Final[dict[int, Found]] = {
 """What the program has found about a screw, by the code that it prints before the number of the screw."""
 _ENDS: Final[dict[Found, str]] = {
     "seated": "is seated",
-    "crossed": "is crossed or jammed: it stopped the screwdriver too early, so the program turns it out",
+    "crossed": "is crossed or jammed: the screw stopped the screwdriver too early, so the program turns the screw out",
     "lost": "is no longer on the bit",
     "not taken": "turns, but no thread takes it",
     "loose": "is deep, but not tight yet",
@@ -51,7 +51,7 @@ class ScrewReported(SystemEvent, frozen=True, kw_only=True):
 
 
 def reported(line: str, time: float) -> ScrewReported | None:
-    """Return the report of a screw in a printed line, or None if there is none."""
+    """Return the report of a screw in a printed line, or None if the line contains no such report."""
     words = [*map(int, line.split()), 0, 0, 0, 0]
     if words[0] not in FOUND:
         return None

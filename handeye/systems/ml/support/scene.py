@@ -110,7 +110,7 @@ def add_ridge(
     shaper: Shaper, body: mujoco.MjsBody, mesh: str, style: str, at: Place, size: tuple[float, ...], lead: float,
     low: float, *, across: bool = False,
 ) -> None:  # fmt: skip
-    """Add a bar along x. If `across` is True, add it along y instead. The long upper edges of the bar are beveled by
+    """Add a bar along x. If `across` is True, add it along y instead. The long upper edges of the bar are bevelled by
     `lead` (mm).
     """
     long, wide, high = (each * MM for each in size)

@@ -88,14 +88,14 @@ class Support(ArmTask):
         return SupportHardware(*self.station(self.world(world)), tell)
 
     def judge(self, truth: Truth) -> Findings:
-        """Judge what the program has assembled, and the number of parts that it printed last."""
+        """Judge the assembled support, and the last count of parts that the program printed."""
         return judge(truth, counted(truth.states[Listener.name]))
 
 
 def screwing(
     spec: mujoco.MjSpec, world: ArmWorld, others: Sequence[Mechanism[Any]] = ()
 ) -> tuple[Station, ForceGauge]:
-    """Return the station of a scene with the parts of the support. Screws and screwdriver work.
+    """Return the station of a scene with the parts of the support. The screws and the screwdriver work.
 
     Args:
         others: other mechanisms of the job. The cell keeps the state of these mechanisms, but they do nothing as time

@@ -79,4 +79,6 @@ brought into a frame in main memory when it is needed.
 """
 
 SHARED: Final = ("TM", "JY", "FK", "VR", "PF", "HL", "MX", "US")
-"""Tables that both arms have in common, in addition to the tables that the background level keeps."""
+"""Tables that both arms share. The arms also share the tables that the background level keeps; those are not in this
+list.
+"""

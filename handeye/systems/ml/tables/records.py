@@ -1,6 +1,6 @@
-"""The lines of some tables: those in which each word of a line has a name. The fields of a line are its words, in the
-order of the table. Lines that change in every cycle are mutable. All other lines are immutable: a new line replaces
-the old line. Saved states can therefore share these lines.
+"""The lines of those tables whose words have names. The fields of a line are its words, in the order of the table.
+Lines that change in every cycle are mutable. All other lines are immutable: a new line replaces the old line. Saved
+states can therefore share these lines.
 """
 
 from typing import Annotated, Final
@@ -111,7 +111,7 @@ class EmergencyLine(Record, frozen=True):
 
 
 class CycleLine(MutableRecord):
-    """The line of CY: statistics of the cycles."""
+    """The only line of the table CY, with statistics of the cycles."""
 
     cycle: Word = 0
     epoch: Word = 0
@@ -124,7 +124,7 @@ class CycleLine(MutableRecord):
 
 
 class ArmLine(MutableRecord):
-    """The line of AR: the arm."""
+    """The only line of the table AR, which describes the arm."""
 
     enabled: Word = 0  # 1: the pump is on
     posted: Word = 2  # 0 while a motion is under way, 1 force, 2 goal, 3 emergency

@@ -115,7 +115,7 @@ class Tables:
         self.views: dict[str, View] = {}  # contents that the background level keeps
 
     def read(self, table: str, line: int, word: int) -> int:
-        """Return a word. Raises MlError (M11)."""
+        """Return a word. Raises MlError (M11) if there is no such word."""
         shape = self._shape(table, line, word)
         if table in self.views:
             return self.views[table].read(line, word)
@@ -129,7 +129,9 @@ class Tables:
         return int(store[(line - 1) * shape.words + word - 1])
 
     def write(self, table: str, line: int, word: int, value: int) -> None:
-        """Write a word. Raises MlError (M04, M11)."""
+        """Write a word. Raises MlError if the value does not fit into a word (M04), or if the word does not exist or
+        cannot be written (M11).
+        """
         shape = self._shape(table, line, word)
         if not fits(value):
             raise MlError("M04", f"{value} does not fit into a word of {table}")

@@ -34,7 +34,7 @@ FAULTS: Final = Catalogue(
     planted(NO_ENGINE, "There is no engine.", _NONE),
     planted(NO_WAGON, "There is no second wagon.", _NONE),
     planted(
-        MOVED, "The first wagon lies off its place along x; the value is the distance.", _MET, _NONE,
+        MOVED, "The first wagon is displaced along x by this distance.", _MET, _NONE,
         size=Size(unit="mm", usual=40.0, limits=(20.0, 60.0)),
     ),
     planted(REVERSED, "The first wagon stands the wrong way round.", _MET, _NO_HOLE, _NONE),

@@ -1,4 +1,4 @@
-"""Defines the job `typewriter`, its worlds and its referee: bin, orientation and rail support in one program."""
+"""Defines the job `typewriter` (bin, orientation and rail support in one program), its worlds and its referee."""
 
 from __future__ import annotations
 
@@ -85,7 +85,7 @@ class Typewriter(ArmTask):
     name = "typewriter"
     words = Words(
         product="the rail support with its bar",
-        done="The rail support is assembled from 22 parts and a bar out of the bin.",
+        done="The rail support is assembled from 22 parts, and has a bar that comes from the bin.",
     )
 
     def variation(self) -> Variation:
@@ -128,7 +128,7 @@ class Typewriter(ArmTask):
         return SupportHardware(*self.station(parts_of(plan), self.world(world)), tell, TROUBLES)
 
     def judge(self, truth: Truth) -> Findings:
-        """Judge the bars, and judge the support as the referee of `support` does."""
+        """Judge the bars. Also judge the support, in the same way as the referee of `support`."""
         pile = truth.states[POURED]
         assert isinstance(pile, Poured)
         fitted, left, boxed, lost = [], 0, 0, 0

@@ -37,7 +37,8 @@ def stages(
     language: Annotated[
         list[Language] | None,
         Parameter(
-            help="Language of the legs; may be repeated. 1973 is the arm language. Default: all that can do the stage.",
+            help="Language of the legs; may be repeated. 1973 is the arm language. Default: all languages that can "
+            "do the stage.",
             consume_multiple=False,
         ),
     ] = None,
@@ -56,15 +57,16 @@ def stages(
 ) -> int:
     """Do stages of the pump in several languages, each from the same state of the same worlds.
 
-    In each world, the careful program (`water_pump.al`) does all stages before the stage. Then a program in each
-    language does the stage, from the state in which the stage before has left the cell, and the referee judges the
-    pump as it is then. The figures are: how often the stage was accepted, how often its failure was silent, the arm's
-    time, the peak of the force, the lines of the program, and the CPU time to plan it. Pairs of languages are compared
-    in the worlds that they have in common. A table says which stages only the arm language can express, and why.
+    In each world, and for each stage, the careful program (`water_pump.al`) first does all earlier stages. A program
+    in each language then continues from this state and does the stage, and the referee judges the pump as it is after
+    the stage. The figures are: how often the referee accepted the stage, how often the stage failed silently, the
+    arm's time, the peak of the force, the number of lines of the program, and the CPU time to plan the program. Each
+    pair of languages is compared in the worlds in which both were tried. A table says which stages only the arm
+    language can express, and why.
 
-    The careful program takes about 20 CPU seconds in each world, and each stage three to ten. Ctrl-C ends the batch and
-    prints the trials that have finished; with --out, the same command continues the batch, and may add worlds, stages
-    and languages.
+    The careful program takes about 20 CPU seconds in each world; each stage takes three to ten CPU seconds more.
+    Ctrl-C ends the batch and prints the trials that have finished. If you gave --out, repeat the command to continue
+    the batch; you can then also add worlds, stages and languages.
 
     Exit code 0: no silent failure; 1: no trial finished; 3: a silent failure; 2: bad input; 130: interrupted.
     """
@@ -106,7 +108,7 @@ def stages(
 
 
 def _chosen(names: Sequence[str] | None, languages: Sequence[str] | None) -> "list[StageLeg]":
-    """Return the legs of stages in languages. Raises InvalidInput if there is none for a stage."""
+    """Return the legs that do the named stages in the named languages. Raises InvalidInput if a stage has no leg."""
     from handeye.systems.relay.stages.languages import WITHOUT_LEG, shared, stage_legs, stage_named
 
     found = []
@@ -121,8 +123,8 @@ def _chosen(names: Sequence[str] | None, languages: Sequence[str] | None) -> "li
 
 
 def _careful(legs: "Iterable[StageLeg]") -> "StageLeg":
-    """Return the leg of the careful program in the last stage that some legs do, or in the last stage that several
-    languages can do, if that is later.
+    """Return the leg in which the careful program does the last stage that is needed. This is the last stage of `legs`
+    or, if it is later, the last stage that several languages can do.
     """
     from handeye.systems.relay.stages.languages import shared, stage_legs, stages
 
@@ -131,7 +133,7 @@ def _careful(legs: "Iterable[StageLeg]") -> "StageLeg":
 
 
 def _run_careful(careful: "Setup", folder: Path, cases: "Sequence[Case]", options: SweepOptions) -> None:
-    """Run the careful program in each world in which a trial is missing, unless the folder has its run."""
+    """Run the careful program in each world in which a trial is missing, unless the folder already has this run."""
     from msgspec.structs import replace
 
     from handeye.trials.folder import kept_trials

@@ -33,7 +33,7 @@ WITHOUT_LEG: Final = {
     "large holes of the gasket lie along X",
     ("put on the top", "TRIG"): f"{_TRIG_HAND}: the hub of the top is 2.2 in wide",
 }  # fmt: skip
-"""Why a stage that other languages can do has no leg in a language."""
+"""For a stage and a language: why the stage has no leg in this language, although other languages can do the stage."""
 _WORD: Final = re.compile(r"\s*(?:\w+:)?\s*(\w+)")  # of an instruction, after its label
 _REMARK: Final = re.compile(r"\s*(;|\*|\d+\s+REM\b)")
 
@@ -52,7 +52,7 @@ class StageLeg(Record, frozen=True, kw_only=True):
 
 
 class StageLimits(Record, frozen=True, kw_only=True):
-    """Which languages can do a stage, and what the other languages have no words for."""
+    """Which languages can do a stage, and which of the stage's instructions the other languages cannot express."""
 
     stage: str
     languages: str  # that have a leg
@@ -75,7 +75,7 @@ def shared() -> tuple[str, ...]:
 
 
 def stage_named(name: str) -> str:
-    """Return a stage by its name. Raises NoSuchName."""
+    """Return a stage by its name. Raises NoSuchName if the pump's own program has no such stage."""
     if name not in stages():
         near = suggestion(name, stages()) or f"the stages are {', '.join(map(quoted, stages()))}"
         raise NoSuchName(f"the pump's own program has no stage {quoted(name)}; {near}")
@@ -89,14 +89,14 @@ def stage_legs(stage: str) -> Iterator[StageLeg]:
 
 
 class TimedProgram(Record, frozen=True, kw_only=True):
-    """A program, and the CPU time of this computer (s) in which it was planned, taught or read."""
+    """A program, and the CPU time (s) that this computer needed to plan, teach or read it."""
 
     program: ProgramPlan
     cpu_s: float
 
 
 def programs(legs: Iterable[StageLeg]) -> dict[str, TimedProgram]:
-    """Plan the careful program and the programs of some legs, by file. Raises InvalidInput if one has errors."""
+    """Plan the careful program and the programs of some legs, by file. Raises InvalidInput if a program has errors."""
     found = {}
     for file in dict.fromkeys([CAREFUL, *(leg.file for leg in legs)]):
         entry, timer = entry_of_file(file)[0], HostTimer()
@@ -109,8 +109,8 @@ def programs(legs: Iterable[StageLeg]) -> dict[str, TimedProgram]:
 
 
 def relay_of(leg: StageLeg, known: Mapping[str, TimedProgram]) -> RelayPlan:
-    """Return a relay in which the careful program does all stages before that of the leg, and then the leg does its
-    stage. `known` has the programs by file.
+    """Return a relay in which the careful program does all stages before the stage of `leg`. The program of `leg` then
+    does this stage. `known` has the programs by file.
     """
     before = stages()[: stages().index(leg.stage)]
     done = [*((stage, CAREFUL) for stage in before), (leg.stage, leg.file)]
@@ -160,13 +160,13 @@ def _word(step: Step) -> str:
 
 
 def _distinct(steps: Iterable[Step]) -> int:
-    """Count the lines of some steps, and each line of a macro once."""
+    """Count the lines of some steps. A line of a macro counts only once."""
     return len({(step.file, step.line) for step in steps})
 
 
 def _lines(stage: str, file: str) -> int:
-    """Count the lines that a stage executes in the arm language, each line of a macro once, or the lines of another
-    program that are neither blank nor remarks.
+    """Count the lines of a stage's program. In the arm language, count the lines that the stage executes, and each
+    line of a macro once. In any other language, count the lines that are neither blank nor remarks.
     """
     if file == CAREFUL:
         program, _ = own_program(TASK)

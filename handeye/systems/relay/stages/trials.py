@@ -1,5 +1,5 @@
 """Trials of stages: in each world, the careful program builds the pump up to a stage. Then a program in each language
-does this stage, from the same state, and the referee judges the pump as it is then.
+does this stage, from the same state, and the referee judges the pump as it is after this stage.
 """
 
 from collections import Counter
@@ -58,7 +58,7 @@ class StageRow(TrialRow, frozen=True, kw_only=True):
     field is the greatest of these forces. It includes the weight of a held part.
     """
     lines: int = 0
-    plan_cpu_s: float = 0.0  # CPU time of this computer in which the program was planned, taught or read
+    plan_cpu_s: float = 0.0  # CPU time that this computer needed to plan, teach or read the program
 
     @property
     def outcome(self) -> str:
@@ -110,8 +110,8 @@ class StageWork:
 
 
 def stage_figures(start: Checkpoint, stage: str, done: int) -> dict[str, object]:
-    """Run the last leg of a relay from a checkpoint, and return the fields of its row. After the leg, `done` stages are
-    done.
+    """Run the last leg of a relay from a checkpoint, and return the fields of its row. `done` is the number of
+    completed stages after this leg.
     """
     peaks: list[LegPeaks] = []
 
@@ -146,7 +146,7 @@ class CellLine(Record, frozen=True, kw_only=True):
 
 
 class CostLine(Record, frozen=True, kw_only=True):
-    """What a stage costs in one language, in the accepted trials."""
+    """What a stage costs in one language, computed from the accepted trials."""
 
     stage: str
     language: str
@@ -167,12 +167,16 @@ class PairLine(Record, frozen=True, kw_only=True):
     only_one: int  # worlds in which only this language was accepted
     only_other: int
     p: float
-    other_takes_s: float | None  # median difference of the arm's time, where both were accepted
+    other_takes_s: (
+        float | None
+    )  # median difference of the arm's time, over the worlds in which both were accepted
     p_time: float | None
 
 
 def _tried(rows: Sequence[StageRow]) -> Iterator[list[StageRow]]:
-    """Yield the rows of each stage and language, without the worlds in which the careful program stopped earlier."""
+    """Yield the rows of each stage and language. Leave out the worlds in which the careful program stopped before the
+    stage.
+    """
     for condition in dict.fromkeys(row.condition for row in rows):
         mine = [row for row in rows if row.condition == condition and row.result != NOT_REACHED]
         if mine:
@@ -256,7 +260,9 @@ def _details(rows: Sequence[StageRow]) -> tuple[Details, ...]:
             heads=("stage", "one", "other", "pairs", "only one", "only other", "p", "other longer by", "p of time"),
         ),
         Details(
-            name="limits", title="Stages, and lines of the careful program for which a language has no words",
+            name="limits", title=(
+                "For each stage: its legs, and the lines of the careful program that a language cannot express"
+            ),
             rows=limits(),
             heads=("stage", "legs in", "no words in TRIG, ML and MAL for", "lines", "TRIG", "ML", "MAL"),
         ),
@@ -266,10 +272,11 @@ def _details(rows: Sequence[StageRow]) -> tuple[Details, ...]:
 def _summary(rows: Sequence[StageRow]) -> list[str]:
     stages_here = {row.of for row in rows}
     return [
-        "Low and high: Wilson's interval, 95 %. The arm's time and the peaks are those of accepted trials. A peak is "
-        "the greatest resultant force of all contacts on the arm at the end of a servo period; it includes the weight "
-        "of a held part. To plan: CPU time of this computer to plan, teach or read the whole program. p: McNemar's "
-        "exact test; p of time: Wilcoxon's signed-rank test, where both were accepted.",
+        "Low and high: Wilson's interval, 95 %. The arm's time and the peaks are those of accepted trials. A peak "
+        "is the greatest resultant force of all contacts on the arm at the end of a servo period; it includes the "
+        "weight of a held part. To plan: CPU time of this computer to plan, teach or read the whole program. p: "
+        "McNemar's exact test; p of time: Wilcoxon's signed-rank test, over the worlds in which both languages "
+        "were accepted.",
         *(
             f"no leg: {stage}, {language}: {why}"
             for (stage, language), why in WITHOUT_LEG.items()

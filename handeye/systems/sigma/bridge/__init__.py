@@ -1,3 +1,3 @@
-"""The bridge from MAL to plans for another arm. The bridge translates programs that have a single task of motions,
-force limits and force tests.
+"""The bridge from MAL to plans for another arm. The bridge translates programs with a single task, which consists of
+motions, force limits and force tests.
 """

@@ -48,15 +48,17 @@ _MM: Final = 0.001
 
 
 class BorrowedArm(PerfectMotors):
-    """Moves the tool of an arm as the motors of arm 1 would move its hand.
+    """Moves the tool of an arm as the motors of arm 1 would move the hand of arm 1.
 
-    There is no reflex at the standard limit, because this arm feels several newtons even in free motion. After LIMIT
-    has set a force for an axis, a motion of this axis stops within a servo period after the force is exceeded. The
+    There is no reflex at the standard limit, because this arm feels several newtons even in free motion. If LIMIT has
+    set a force for an axis, a motion of this axis stops at most one servo period after this force is exceeded. The
     motors of SUPERSIGMA stop within a millisecond.
     """
 
     def __init__(self, drive: ArmDrive, at: tuple[float, float] = AT) -> None:
-        """Take an arm that is held in place, and bring its tool to the place where the axes are at power-on."""
+        """Take control of an arm that the servo holds in place, and bring its tool to the place where the axes are at
+        power-on.
+        """
         super().__init__()
         self._drive, self._axes, self._at = drive, ToolAxes(drive), at
         self._top, self._open = TOP, OPEN  # mm

@@ -68,7 +68,7 @@ def run_borrowed(
     tell: Callable[[SystemEvent], None] = lambda _: None,
     poll: Callable[[], None] = lambda: None,
 ) -> BorrowedRun:
-    """Execute a program on an arm."""
+    """Execute a MAL program on the arm that replaces the arm of SUPERSIGMA."""
     vm = VirtualMachine(program, arm, tell, poll=poll)
     message = ""
     try:

@@ -105,7 +105,7 @@ Tests = Mapping[int, ForceTest]
 
 
 def flow(lines: Sequence[Line], tests: Tests) -> dict[int, Before]:
-    """Return what holds before each line that can be reached, by the number of the line."""
+    """Return what is known before each line that can be reached. The keys are the numbers of the lines."""
     by_number = {line.number: line for line in lines}
     after = dict(pairwise(by_number))
     holds: dict[int, Before] = {lines[0].number: Before()} if lines else {}
@@ -125,7 +125,7 @@ def flow(lines: Sequence[Line], tests: Tests) -> dict[int, Before]:
 def _left(
     line: Line, after: int | None, before: Before, test: ForceTest | None
 ) -> list[tuple[int | None, Before]]:
-    """Return the lines that may follow a line, with what holds before each of them."""
+    """Return the lines that may follow a line, each with the facts that are known before it is executed."""
     statement = line.statement
     change: Callable[..., Before] = lambda **fields: replace(before, **fields)  # noqa: E731
     match statement.word:

@@ -1,4 +1,4 @@
-"""MAL as a language of planned programs, for the planner."""
+"""MAL as the planner needs it: as a language whose programs become plans."""
 
 from collections.abc import Iterable
 from functools import partial
@@ -18,8 +18,8 @@ _SAID = {
     "carries-through-fixture": "what the hand holds would go through a fixture",
     "stop-beyond-arm": "the arm cannot exert the force of this limit",
     "force-beyond-arm": "the arm cannot exert this force",
-    "faint-force": "the arm may feel this force in free motion, because of the friction of its joints",
-    "faint-moment": "the arm may feel this moment in free motion, because of the friction of its joints",
+    "faint-force": "in free motion, the friction of its joints alone can make the arm feel this force",
+    "faint-moment": "in free motion, the friction of its joints alone can make the arm feel this moment",
 }
 
 

@@ -185,7 +185,7 @@ class MalLeg(ToolLeg, RunningMal):
         self._rest()
 
     def _rest(self) -> None:
-        """Note the state of the arm after a statement."""
+        """Copy the state of the arm, after a statement, to the state that is saved."""
         self.tool.rest()
         state, arm = self._state, self._machine
         state.limits = {number: limit for number, limit in arm._limits.items() if limit is not None}

@@ -75,14 +75,14 @@ _CURE: Final = (
 
 
 class _Stop(NamedTuple):
-    """Where a step leads: either to a line, or to a later step, which is `here` steps further on."""
+    """Where a step leads: either to a line, or `here` steps further on."""
 
     line: int | None = None
     here: int | None = None
 
 
 class _Draft(NamedTuple):
-    """An operation whose targets are lines."""
+    """An operation whose successors are given as lines of the MAL program."""
 
     operation: AnyOperation
     next: _Stop
@@ -118,8 +118,8 @@ def _refused(line: Line, why: str, *labels: Label) -> Diagnostic:
 
 
 def _with_one_cure(found: Sequence[Diagnostic]) -> list[Diagnostic]:
-    """Sort refusals. Only the last refusal says what a plan can contain, because that help is the same for all
-    refusals.
+    """Sort refusals. The help that says what a plan can contain is the same for all refusals, so only the last refusal
+    gets it.
     """
     *others, last = arranged(found)
     return [*others, replace(last, help=_CURE)]
@@ -163,7 +163,7 @@ def _device(statement: Statement) -> str:
 
 
 def _arms(lines: Sequence[Line]) -> Iterator[Diagnostic]:
-    """Yield the first line that does not use the arm of the lines before it, but another arm."""
+    """If the lines use both arms, yield a diagnostic for the first line that uses the second of these arms."""
     first: tuple[int, Line] | None = None
     for line in lines:
         for arm in sorted(_arms_of(line.statement)):
@@ -177,7 +177,7 @@ def _arms(lines: Sequence[Line]) -> Iterator[Diagnostic]:
 
 
 def _arms_of(statement: Statement) -> set[int]:
-    """Return the arms that a statement moves or sets."""
+    """Return the arms whose axes or devices a statement names."""
     if statement.word == "ACTUATE":
         return {MAL_DEVICES[name.text][0] for name in statement.names}
     axes = [goal.axis.text for goal in statement.goals]
@@ -280,8 +280,8 @@ class _Translation:
         if isinstance(way, Unknown):
             self._refuse(
                 line,
-                "the line to which ON ABORT leads is not the same for all axes of this motion, or for all paths on "
-                "which the program reaches this line",
+                "ON ABORT leads to different lines for different axes of this motion, or on different paths to "
+                "this motion",
             )
             return []
         tested = _Draft(

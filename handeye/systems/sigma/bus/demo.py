@@ -27,7 +27,7 @@ ASKED: Final = "Y1"
 COUNT: Final = 0x1234  # the count that Y1 has at first
 SHORT_MOVE: Final = 8  # steps that the late riser makes
 COMMAND: Final = Command(number=NUMBERS["X1"], op=Op.MOVE, detail=Op.SET_POSITION, value=0x0102)
-"""A move of X1. The bytes after the first are also a command to Y1; this command would change Y1's count."""
+"""A move of X1. From its second byte on, the command reads like a command to Y1 that would change Y1's count."""
 RISES: Final = 26  # microseconds after the command began, when the late riser becomes free
 _MARGIN: Final = 20  # microseconds drawn before and after the command
 _ENOUGH: Final = 60_000_000  # microseconds

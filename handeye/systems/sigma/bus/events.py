@@ -28,7 +28,9 @@ class FrameTaken(BusEvent, frozen=True, kw_only=True, tag="taken"):
 
 
 class ByteSpoken(BusEvent, frozen=True, kw_only=True, tag="spoken"):
-    """A microcomputer put a byte of an answer on the lines, and set the strobe. Both end at the time `until`."""
+    """A microcomputer put a byte of an answer on the lines, and set the strobe. The byte and the strobe end at the
+    time `until`.
+    """
 
     number: int
     byte: int

@@ -78,7 +78,8 @@ KINDS: Final[dict[str, Defects]] = {
 
 
 def defect(text: str) -> BusDefect:
-    """Parse a fault: `KIND`, `KIND:WHERE` or `KIND:WHERE:VALUE`. Raises BadArgument.
+    """Parse a fault: `KIND`, `KIND:WHERE` or `KIND:WHERE:VALUE`. Raises BadArgument if the text is not a fault of the
+    bus.
 
     A kind that concerns the whole bus has no WHERE.
     """

@@ -40,8 +40,8 @@ class Plant(ABC, Generic[Kept]):
     )
 
     def resumed(self) -> None:
-        """The bus calls this method after the state was restored. Afterwards, it calls `driven` and `limited` for all
-        microcomputers.
+        """The bus calls this method after the state was restored. Afterwards, the bus calls `driven` and `limited` for
+        all microcomputers.
         """
 
     def advance(self, at: int) -> tuple[int, list[Level]] | None:

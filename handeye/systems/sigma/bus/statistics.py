@@ -15,9 +15,7 @@ _AT_ONCE: Final = 10_000  # commands whose numbers are drawn together
 
 
 class Rate(Record, frozen=True, kw_only=True):
-    """Random commands were each sent to one free microcomputer. The fields count these commands and how they were
-    received.
-    """
+    """How many random commands were sent, each to one free microcomputer, and how they were received."""
 
     clock: float  # greatest clock error, as a fraction
     commands: int

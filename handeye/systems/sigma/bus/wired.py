@@ -318,9 +318,7 @@ class WiredBus(MicrobusPort):
         return device.crystal.after(0, self.timing.scan, at + 1)
 
     def _reflexes(self, number: int) -> list[tuple[int, bool]]:
-        """Return the motors that a force microcomputer can interrupt. The value for each motor is True while the motor
-        is interrupted.
-        """
+        """Return the motors that a force microcomputer can interrupt, each with True while it is interrupted."""
         device = self._nodes[number].device
         assert isinstance(device, Force)
         pairs = ((self._wired.get((number, c)), level) for c, level in enumerate(device.pins))
@@ -390,7 +388,7 @@ class WiredBus(MicrobusPort):
             self.plant.limited(number, node.device.memory.thresholds)
 
     def _listen(self, node: Microcomputer, at: int) -> None:
-        """Let a microcomputer look for a strobe if it is free."""
+        """Let a microcomputer look for a strobe, which it does only if it is free."""
         for taken in node.listen(at, self._memory.sent, self.wires, quiet=not self._speeches()):
             self._say_taken(node.place.number, taken, own=False)
 

@@ -39,7 +39,7 @@ def bridge(
     output: Annotated[Path | None, Parameter(name=["--out", "-o"])] = None,
     overwrite: Overwrite = False,
 ) -> int:
-    """Turn a MAL program of MOVE, LIMIT, FORCE tests and ACTUATE into a plan for the Stanford arm.
+    """Turn a MAL program into a plan for the Stanford arm. The program may use MOVE, LIMIT, ACTUATE and tests of FORCE.
 
     `handeye run` runs the plan. A program with a line that cannot become a motion is refused, and each such line is
     named.

@@ -50,7 +50,7 @@ COMMANDS: Final = {
 
 
 class Console:
-    """A session at the console: the program, and the machine in the state in which the last run left it."""
+    """A session at the console. It holds the program, and the machine as the last run left it."""
 
     def __init__(
         self,

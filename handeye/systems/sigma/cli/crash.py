@@ -27,8 +27,8 @@ def crash(
     lower: Annotated[
         Literal["none", "1", "2"],
         Parameter(
-            help="The arm whose hand is 100 mm lower than the other's. `2`: arm 1 hits arm 2 above the wrist of arm 2; "
-            "`1`: the column of arm 1, above the wrist of arm 1, hits the hand of arm 2; `none`: the hands meet."
+            help="The arm whose hand is 100 mm lower than the other's. `2`: the hand of arm 1 hits the column of "
+            "arm 2. `1`: the column of arm 1 hits the hand of arm 2. `none`: the hands meet."
         ),
     ] = "none",
     json: Json = False,

@@ -1,4 +1,4 @@
-"""The commands of all jobs on the board: one world, and many."""
+"""The commands of all jobs on the board. Each job has a command for one world and a command for many worlds."""
 
 from functools import partial
 from pathlib import Path
@@ -241,8 +241,8 @@ def prco_trials(
     errors: OwnErrorOptions = ANY_OWN_ERRORS,
     options: SweepOptions = ANY,
 ) -> int:
-    """Assemble the plate of the pump in many worlds. Shows the bus load, the depth and the clamping force of the
-    screws, and how often all parts are right.
+    """Assemble the plate of the pump in many worlds. Shows the bus load, how deep and how tight the screws are, and
+    how often all parts are right.
 
     Each trial does what `handeye sigma prco` does. Ctrl-C ends the batch and prints the trials that have finished. If
     you gave --out, repeat the command to continue the batch.

@@ -19,7 +19,8 @@ def moves(
 ) -> int:
     """Make fast moves in empty space, with and without the wrists' accelerometers, and show forces and false stops.
 
-    Exit code 0: with accelerometers, no reflex stopped a move; 1: a reflex stopped a move; 2: bad input.
+    Exit code 0: with accelerometers, no reflex stopped a move; 1: with accelerometers, a reflex stopped a move; 2: bad
+    input.
     """
     from handeye.systems.sigma.gantries.free_moves import free_moves, lines
 

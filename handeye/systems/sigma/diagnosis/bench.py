@@ -1,9 +1,9 @@
 """The machine on the test bench, and what a technician can do to it by hand. The machine is ideal except for a planted
 fault.
 
-Rotors follow each pulse, unless the fault weakens their motors. In that case, a balance of forces decides whether the
-rotors follow. A wrist senses loads, the swing of its hand when a motor starts, and the push of the fingers when they
-close on a block.
+Rotors follow each pulse, unless the fault weakens their motors. For weakened motors, a balance of forces decides
+whether the rotors follow. A wrist senses loads, the swing of its hand when a motor starts, and the push of the fingers
+when they close on a block.
 """
 
 import math
@@ -260,5 +260,7 @@ class Bench:
         self.machine.light[NUMBERS[f"HAND{arm}"]] = passes
 
     def block(self, arm: int, *, there: bool) -> None:
-        """Fix a block between the fingers of a hand, but not midway. If `there` is False, take the block away."""
+        """If `there` is True, fix a block between the fingers of a hand, but not midway between them. If `there` is
+        False, take the block away.
+        """
         (self.machine.blocks.add if there else self.machine.blocks.discard)(NUMBERS[f"HAND{arm}"])

@@ -247,7 +247,9 @@ FAULTS: Final[dict[str, Fault]] = {
 
 
 def planted(name: str, seed: int | None = None) -> Planted:
-    """Return the fault called `name`, at its usual place, or at a random one if a seed is given. Raises NoSuchName."""
+    """Return the fault called `name`, at its usual place, or at a random one if a seed is given. Raises NoSuchName if
+    there is no such fault.
+    """
     if name not in FAULTS:
         raise NoSuchName(f"there is no fault {quoted(name)}; the faults are {', '.join(FAULTS)}")
     rng = None if seed is None else random_numbers(seed, f"diagnosis {name}")
@@ -255,8 +257,8 @@ def planted(name: str, seed: int | None = None) -> Planted:
 
 
 def variants(name: str) -> Iterator[tuple[str, Planted]]:
-    """Yield all variants of the fault called `name`, one for each place and kind. Yield a text with each variant that
-    names it, such as `dead.X1`. The usual variant comes first.
+    """Yield all variants of the fault called `name`, one for each place and kind. With each variant, yield a text that
+    names the variant, such as `dead.X1`. The usual variant comes first.
     """
     numbers: list[int] | None = []
     while numbers is not None:

@@ -69,7 +69,7 @@ def self_tests(at: Technician) -> SelfTests:
 
 @dataclass(frozen=True, slots=True)
 class Clocks:
-    """How much slower than usual the clock of each microcomputer is (percent), measured by the times of its answers.
+    """By how many percent the clock of each microcomputer is slower than usual, measured by the times of its answers.
     The value is None for a microcomputer that does not answer.
     """
 
@@ -228,7 +228,7 @@ class Lost:
 
     @property
     def losers(self) -> list[str]:
-        """Axes that have lost steps, or whose switch was not found."""
+        """Axes that have lost steps, or that have not reached their switch."""
         return [axis for axis, lost in self.steps.items() if lost != 0]
 
     @property

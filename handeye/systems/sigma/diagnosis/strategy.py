@@ -255,7 +255,9 @@ def wrong_force(found: means.Forces) -> tuple[str, str]:
 
 
 def _errors(found: means.Forces) -> Iterator[tuple[int, float, float]]:
-    """Yield each component, the load on it, and the error of its reading (N)."""
+    """Yield, for each component of the force, three values: its number, the true load (N), and the error of the
+    reading (N).
+    """
     for loaded, newtons, read in found.readings:
         for component, value in enumerate(read):
             there = newtons if component == loaded else 0.0

@@ -1,4 +1,4 @@
-"""The job of the environment. It is known without the physics."""
+"""The job of the environment. This module does not load the physics."""
 
 from typing import Final
 

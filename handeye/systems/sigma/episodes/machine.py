@@ -110,7 +110,7 @@ class GantryControls(Controls):
         self._pass([*self._moves(values), *self._fingers(values)])
 
     def stop(self) -> None:
-        """Give no more commands, and wait until the axes stand."""
+        """Give no more commands, and wait until the axes stand still."""
         last = self._bus.now + _LONGEST
         while Status.BUSY in self._shown() and self._bus.now < last:
             self._pass(())

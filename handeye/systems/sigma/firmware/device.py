@@ -34,8 +34,8 @@ class Crystal:
         return picoseconds * _TICKS // (PS + self.ppm)
 
     def after(self, since: int, micros: int, at: int) -> int:
-        """Return the first time of a series that is not before `at`. The series begins with `since`, and its times
-        have equal intervals of `micros` (microseconds).
+        """Return the first of the times `since`, `since` plus one interval, `since` plus two intervals, and so on,
+        that is not before `at`. The interval is `micros` (microseconds).
         """
         step = self.micros(micros)
         return since + max(0, -(-(at - since) // step)) * step

@@ -1,5 +1,5 @@
 """Firmware of a wrist, which scans the three components of force. While a component exceeds its threshold, the
-firmware raises a pin of a motor.
+firmware raises a pin of the motor of the same axis.
 """
 
 from collections.abc import Sequence
@@ -15,8 +15,8 @@ from handeye.systems.sigma.protocol import COMPONENTS, FORCE_STEP_N, STANDARD, O
 STANDARD_N: Final = 4.0
 CONVERTER_N: Final = 0.05  # N: step of the converter
 RELEASED: Final = 0.8
-"""Share of a threshold. The pin that signals a force is released only when the force has fallen below this share of
-the threshold, so that a swinging wrist does not trip twice.
+"""Fraction of a threshold. After the force has exceeded the threshold, the microcomputer keeps its signal on until the
+force has fallen below this fraction of the threshold. So a swinging wrist does not trip the threshold twice.
 """
 _LARGEST: Final = 0x7FFF  # greatest value of an answer
 

@@ -1,4 +1,6 @@
-"""Two kinds of firmware: that of a hand with its light beam, and that of sensors that give longer answers."""
+"""Two kinds of firmware: that of a hand with its light beam, and that of newer sensors, whose answers may have any
+length.
+"""
 
 from typing import Final
 

@@ -196,7 +196,7 @@ class Motor(Device):
                 self._refuse(Status.RAIL, at)
 
     def pin(self, pin: Pin, level: bool, at: int) -> None:
-        """Handle a change of a pin of the interrupt gate."""
+        """Handle a change of the level at a pin of the interrupt gate."""
         memory = self.memory
         rose = level and not getattr(memory, pin)
         setattr(memory, pin, level)

@@ -109,7 +109,7 @@ class FaultyGantries(Gantries):
             self._felt[row, self._inertial] = self._still[row] = 0.0
 
     def _strain_gauge(self, axis: int, *, offset: bool) -> None:
-        """Let the gauge of an axis read too much if `offset` is True, or nothing if `offset` is False."""
+        """Make the gauge of an axis read too much if `offset` is True, or nothing if `offset` is False."""
         for sense, row in ((1, axis), (-1, self._n + axis)):
             if offset:
                 self._still[row] += sense * OFFSET_N

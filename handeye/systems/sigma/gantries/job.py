@@ -26,7 +26,7 @@ class JobTask(GantryTask):
     rig: Rig = SUPERSIGMA_RIG
     layout: Layout = SUPERSIGMA
     usual: int
-    """The number of pieces if no number is given."""
+    """Default number of pieces."""
     few = 2  # pieces for a short run
     judges_stopped = True
 

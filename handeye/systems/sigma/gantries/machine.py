@@ -1,5 +1,5 @@
-"""Simulates the two gantries that are connected to the pins: rotors that magnetic fields pull along, wrists
-that bend, switches, light beams and hands.
+"""Simulates the two gantries, which are connected to the pins of the microcomputers: rotors that magnetic fields pull
+along, wrists that bend, switches, light beams and hands.
 
 The fields of all motors are computed in advance from the pulse trains of their firmware, as tables with one row
 per millisecond. The physics follows these tables. In each millisecond, one matrix product and one comparison
@@ -291,7 +291,9 @@ class Gantries(Plant[GantryMemory]):
         return self._step * TICK, seen
 
     def _plan(self) -> None:
-        """Combine the fields of all motors in one table, which begins at the present physics step."""
+        """Put the positions of the magnetic fields of all motors in one table, with a row for each physics step from
+        the present one on.
+        """
         self._first, self._row = self._step, -1
         left = [(field, min(self._step - field.first, len(field.places) - 1)) for field in self._fields]
         rows = max(len(field.places) - gone for field, gone in left)
@@ -398,7 +400,7 @@ def _hold(lags: Array, begins: Array, ends: Array) -> Array:
 
 
 def _field(motor: Motor, first: int) -> Field:
-    """Return the positions and speeds of a motor's field in the physics steps from `first`."""
+    """Return the positions and speeds of a motor's field from the physics step `first` on."""
     memory = motor.memory
     if memory.train is None:
         return Field(first, np.array([float(memory.pulses)]), np.zeros(1))
@@ -422,7 +424,7 @@ def _least_over(threshold: float) -> float:
 
 
 def _sensors(model: mujoco.MjModel, kind: mujoco.mjtSensor, names: Sequence[str]) -> list[int]:
-    """Return the addresses of the readings of joints or sites, by name."""
+    """For each of the joints or sites in `names`, return the address of its reading."""
     of = model.site if kind == mujoco.mjtSensor.mjSENS_ACCELEROMETER else model.joint
     known = {
         int(model.sensor_objid[index]): int(model.sensor_adr[index])

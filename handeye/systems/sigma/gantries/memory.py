@@ -12,15 +12,15 @@ class GantryMemory(MutableRecord, kw_only=True, tag="gantries"):
     slipped: list[int] = field(default_factory=lambda: [0] * len(AXES))
     """For each rotor, the number of poles by which it has slipped forward; negative if it has slipped backward."""
     holds: list[float] = field(default_factory=lambda: [1.0] * len(AXES))
-    """For each rotor, the force with which its pole holds it, as a fraction of the pull-out force."""
+    """For each rotor, the force with which a pole holds the rotor, as a fraction of the pull-out force."""
     peaks: list[float] = field(default_factory=lambda: [0.0] * len(AXES))
     """The greatest forces on the wrists (N) since the forces were last read."""
     levels: bytes = b""  # levels of comparators and switches at the last step
     missed: list[int] = field(default_factory=lambda: [0] * len(AXES))
     """Pulses that a faulty microcomputer has counted, but not sent to its driver; forward minus backward."""
     gaps: list[float] = field(default_factory=lambda: [1.0, 1.0])
-    """Commanded opening of the fingers of each hand, as a fraction of the full opening, if a fault makes the fingers
-    slow.
+    """Commanded opening of the fingers of each hand, as a fraction of the full opening. Used only for a hand whose
+    fingers are slow because of a fault.
     """
     grips: list[bool] = field(default_factory=lambda: [False, False])  # closed or closing hands
 

@@ -69,7 +69,9 @@ class Witness(Mechanism[H], Generic[H]):
 
     def check(self, state: H) -> None:
         if replace(state, **{name: getattr(self.heard, name) for name in self.growing}) != self.heard:
-            raise BadFile("the board of the saved run held different pieces")
+            raise BadFile(
+                "the pieces on the board of the saved run differ from the pieces on the board of this world"
+            )
         if len(state.lines) > _MOST or any(len(line) > _LONGEST for line in state.lines):
             raise BadFile("the saved run has more lines of output than the program can print")
 

@@ -1,4 +1,4 @@
-"""The witness of a hand-over: the pieces counted by the program, and how long the arms touched."""
+"""The witness of a hand-over. It records how many pieces the program has counted, and how long the arms touched."""
 
 import re
 from typing import Final

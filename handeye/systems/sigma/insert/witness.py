@@ -64,6 +64,6 @@ class InsertionWitness(Witness[WatchedInsertion]):
     def check(self, state: WatchedInsertion) -> None:
         super().check(state)
         if len(state.slipped) != len(AXES):
-            raise BadFile("the state has a different number of motors")
+            raise BadFile("the number of motors in the saved state is wrong")
         if min(state.touched_ms, state.lost, state.most_n) < 0:
             raise BadFile("forces, lost steps and times of contact cannot be negative")

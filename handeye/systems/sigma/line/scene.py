@@ -28,7 +28,7 @@ _CARRIAGE: Final = re.compile(r'(name="carriage_X[34]" pos=")(\S+)')
 
 
 def line_scene(world: GantryWorld) -> mujoco.MjSpec:
-    """Return the scene of a world without pieces."""
+    """Return the scene of a world, without the pieces."""
     spec = mujoco.MjSpec.from_string(_text())
     vary(spec, world, LINE_RIG)
     return spec

@@ -132,7 +132,7 @@ class PerfectMotors(MicrobusPort):
         if not isinstance(memory, PerfectMemory):
             raise BadFile("the saved state does not belong to a machine with perfect motors")
         if {*memory.motors} != {*_AXIS} or {*memory.hands} != {*_HANDS}:
-            raise BadFile("the saved state has different motors or hands")
+            raise BadFile("the saved state belongs to a machine with other motors or hands")
         put_back(self._memory, memory)
 
     # -- microcomputers -------------------------------------------------------------------------------

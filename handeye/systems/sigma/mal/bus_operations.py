@@ -64,8 +64,8 @@ class BusOperations:
     def _do_beam(self, name: str, task: TaskMemory, __: Instruction) -> None:
         arm = task.stack.pop()
         if arm not in range(1, 1 + self.program.hands):
-            arms = "arms 1 and 2" if self.program.axes == AXES else f"hands 1 to {self.program.hands}"
-            raise Trap(f"there is no arm {arm:g}, only {arms}")
+            beams = "1 and 2" if self.program.axes == AXES else f"1 to {self.program.hands}"
+            raise Trap(f"there is no light beam {arm:g}, only {beams}")
         self._push(task, float(self.ask(name, protocol.beam(int(arm)))[0]))
 
     # -- commands ---------------------------------------------------------------------------------------
@@ -202,8 +202,8 @@ class BusOperations:
             raise Trap(f"NOTSTARTED: {what.to} has not begun to execute its command")
 
     def _compare(self, name: str, axis: str) -> None:
-        """Raise Trap if the count of a motor differs from the position to which the program has sent the motor. If the
-        counts differ, the motor's microcomputer missed or misread a command.
+        """Raise Trap if the count of a motor differs from the position to which the program has sent the motor. A
+        difference shows that the motor's microcomputer has missed or misread a command.
         """
         sent = self.memory.counts.get(axis, 0)
         count = protocol.signed(self.ask(name, protocol.position(axis)))

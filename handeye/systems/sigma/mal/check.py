@@ -327,7 +327,7 @@ class _Check:
                     if arm is not None and arm not in range(1, 1 + self._hands):
                         yield mistake(
                             "wrong-value",
-                            f"there is no arm {arm:g}, only {'arms 1 and 2' if self._hands == 2 else 'hands 1 to 6'}",
+                            f"there is no light beam {arm:g}, only {'1 and 2' if self._hands == 2 else '1 to 6'}",
                             statement.span,
                             help=_allowed("BEAM"),
                         )

@@ -48,7 +48,7 @@ CODES: Final[dict[str, Mistake]] = {
         cure="give each line a different number",
     ),
     "next-without-for": Mistake(
-        meaning="a NEXT has no FOR of the same name before it in its task", example="10 PRINT I\n20 NEXT I",
+        meaning="a NEXT has no earlier FOR with the same variable in the same task", example="10 PRINT I\n20 NEXT I",
         cure="write FOR before the lines to repeat",
     ),
     "number-too-large": Mistake(

@@ -387,7 +387,7 @@ class _Ways:
 
     @cached_property
     def _behind(self) -> dict[tuple[str, str, Operand], list[int | None]]:
-        """For each FOR loop and each call of a subroutine, the indices of the lines that follow. The key consists of
+        """The indices of the lines that directly follow each FOR and each call of a subroutine. The key consists of
         the task, the instruction and the operand.
         """
         behind: dict[tuple[str, str, Operand], list[int | None]] = {}

@@ -291,5 +291,5 @@ _FORMS: Final[dict[str, Callable[[_Parser, str], Statement]]] = {
     "ON": _Parser._on,
     "RESUME": _Parser._bare,
 }
-"""The function that parses the rest of each kind of statement."""
+"""For each word that begins a statement: the function that parses what follows the word."""
 assert (*_FORMS,) == STATEMENTS

@@ -174,8 +174,8 @@ MAL_DEVICES: Final[dict[str, tuple[int, str]]] = {
     "LAMP": (1, "LAMP"),
     "BELL": (1, "BELL"),
 }
-"""For each device: the arm whose hand microcomputer drives the device, and the name that this microcomputer has for
-the device.
+"""For each device: the number of the arm whose hand microcomputer drives the device, and the device's name in this
+microcomputer.
 """
 assert {device for _, device in MAL_DEVICES.values()} == {*DEVICES}
 RESERVED: Final = {*WORDS, *LINE_AXES, "DIM"}

@@ -1,8 +1,8 @@
 """Computes the pulse trains of the motor microcomputers. A counter that divides a 2 MHz clock determines the
 times of the steps.
 
-A few numbers define a train. The times of the pulses are computed directly from these numbers, so the firmware is not
-simulated in small intervals of time.
+A few numbers define a train. The times of the pulses are computed directly from these numbers, so the firmware need
+not be simulated in small intervals of time.
 """
 
 import math
@@ -45,8 +45,8 @@ CURVES: Final = (
 
 
 class Train(Record, frozen=True, kw_only=True):
-    """A train of `steps` pulses that begins and ends at the speed `start` and does not exceed `top`, or a stop
-    from the speed `top`.
+    """A train of pulses. A train of the kind `profile` has `steps` pulses, begins and ends at the speed `start`, and
+    does not exceed `top`. A train of the kind `stop` is a stop from the speed `top`.
     """
 
     kind: Literal["profile", "stop"] = "profile"
@@ -131,8 +131,8 @@ def stop(speed: float, curve: Curve) -> Train:
 
 
 def stopped(train: Train, curve: Curve, ticks: int, *, cut: bool = False) -> Pulses:
-    """Return the pulses of a train that is interrupted after some ticks. The train ends with the steepest ramp or, if
-    `cut` is True, abruptly. An abrupt stop is a fault.
+    """Return the pulses of a train that is interrupted after `ticks` ticks. The train ends with the steepest ramp or,
+    if `cut` is True, abruptly. An abrupt stop is a fault.
     """
     pulses = train.pulses
     made = pulses.ticks[: pulses.count(ticks)]

@@ -80,8 +80,8 @@ class Followed:
 def commanded(
     pulses: Pulses, period: float, settle: float = _SETTLE
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return the position (steps) and the speed (steps/s) that pulses command, as means over each `period` (s),
-    until `settle` seconds after the last pulse.
+    """Return the commanded position (steps) and the commanded speed (steps/s), each averaged over periods of `period`
+    seconds. The last period ends `settle` seconds after the last pulse.
     """
     count = math.ceil((pulses.seconds + settle) / period)
     ticks = np.arange(count + 1) * (period * CLOCK_HZ)

@@ -1,4 +1,6 @@
-"""Adds base, plate, pins, screws, their fixtures and the screwdriver of arm 2 to the scene of the gantries."""
+"""Adds the base, the plate, the pins, the screws, their fixtures and the screwdriver of arm 2 to the scene of the
+gantries.
+"""
 
 from typing import Final
 
@@ -47,7 +49,7 @@ DRIVER_MASS: Final = 0.3  # kg, taken from the palm: both hands weigh the same
 
 
 def add_pump(spec: mujoco.MjSpec, pump: Pump) -> None:
-    """Add everything to the scene of the gantries."""
+    """Add the parts of a pump, their fixtures and the screwdriver to the scene of the gantries."""
     spec.option.enableflags |= int(mujoco.mjtEnableBit.mjENBL_DIAGEXACT)  # a thread under load needs it
     spec.option.impratio = 50
     add_styles(spec)

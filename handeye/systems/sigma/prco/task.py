@@ -129,7 +129,7 @@ class _Screws:
 
 
 def _gaps(truth: Truth) -> list[float]:
-    """Return the gaps (mm) between plate and base at the corners of the plate."""
+    """Return the gaps (mm) between the plate and the base at the corners of the plate."""
     base, plate = truth.data.body("base"), truth.data.body("plate")
     axes = base.xmat.reshape(3, 3)
     corners: Array = np.array(

@@ -106,7 +106,7 @@ class RunningMal(NumberedRun):
 
     @property
     def machine(self) -> PerfectMotors | WiredBus:
-        """The machine of the plan, as the program commands it."""
+        """The machine that the plan names. The program commands this machine."""
         return self._machine
 
     def type_out(self, text: str) -> None:

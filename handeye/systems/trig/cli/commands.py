@@ -147,7 +147,9 @@ def _piped(session: "Session", halted: Callable[[], bool]) -> int:
 
 
 def _conversed(session: "Session", arm: str) -> int:
-    """Run a session at a terminal: on a full screen or, if the screen library is missing, line by line."""
+    """Run a session at a terminal. The session uses the full screen; if the screen library is missing, the session
+    works line by line.
+    """
     try:
         from handeye.systems.trig.cli.screen import PACE, Screen
     except ModuleNotFoundError:

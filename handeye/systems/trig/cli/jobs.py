@@ -74,7 +74,9 @@ class _Progress(Observer):
         if isinstance(event, StepStarted):
             steps = counted(len(self._runner.system.executed), "step")
             way = "undoing" if isinstance(event, UndoStarted) else "running"
-            self._status.update(f"{way}: {steps} done (not counting undone steps), now at {event.text}")
+            self._status.update(
+                f"{way}: {steps} done (not counting steps that were undone), now at {event.text}"
+            )
 
 
 def palletise(
@@ -89,7 +91,8 @@ def palletise(
     json: Json = False,
     kept: KeptOptions = NOTHING,
 ) -> int:
-    """Move a stack of blocks into a pallet, and back: the paper's second example, with physics, in a random world.
+    """Move a stack of blocks into a pallet, and back: the second example of TRIG's paper, with physics, in a random
+    world.
 
     A simulated person types the 26 lines of the example into a new editor, and teaches positions with errors of about
     .3 mm. Then the program runs forwards, and a referee judges the result. Finally the program runs backwards, and the

@@ -23,7 +23,7 @@ ROWS = 12  # number of rows of the partial display
 
 
 class LineDesk(Desk):
-    """Reads typed lines, including those with the actions on the teach box."""
+    """Reads typed lines. Some lines stand for actions on the teach box."""
 
     def __init__(self, panic: PanicButton) -> None:
         self._panic = panic

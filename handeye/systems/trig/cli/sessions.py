@@ -83,7 +83,7 @@ class _ProgressDesk(Script):
         active = program.active
         what = active.name or active.position or active.type
         self._status.update(
-            f"running: {counted(steps, 'step')} done (not counting undone steps), now at {what}"
+            f"running: {counted(steps, 'step')} done (not counting steps that were undone), now at {what}"
         )
 
 

@@ -1,4 +1,4 @@
-"""Draws the arm above its table with characters, from above and with its height, from the place that the arm reads."""
+"""Draws the arm above its table with characters: the table from above, and a scale with the height of the hand."""
 
 from collections.abc import Mapping
 from typing import Final
@@ -65,8 +65,8 @@ def table_view(
 
 
 def _mark(cells: list[list[str]], place: Place, mark: str) -> tuple[int, int]:
-    """Write a character at a place on the table. Places beyond the edge are shown at the edge. Returns its row and
-    column.
+    """Write a character at a place on the table. Places beyond the edge are shown at the edge. Returns the row and
+    column of the character.
     """
     x, y, *_ = place.measures()
     column, row = (

@@ -1,4 +1,6 @@
-"""Defines the windows of the screen (full display, partial display, program editor, arm status), and its keys."""
+"""Defines the windows of the screen (full display, partial display, program editor, arm status), and the keys of the
+editor.
+"""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -149,7 +151,7 @@ def pictured(session: Session, size: tuple[int, int]) -> Picture:
 
 
 def _hints(columns: int, rows: int, symbols: Symbols) -> list[Line]:
-    """Return what a user can type first, and what the signs of the displays mean, in this space."""
+    """Return lines that fit this space: what a user can type first, and what the signs of the displays mean."""
     hints: list[Line] = [[], [("", "The program is empty. Type the first step below. For example:")]]
     hints += [[("title", f"  {typed:<10}"), ("", told)] for typed, told in HINTS]
     hints += [

@@ -68,7 +68,7 @@ Moment = Literal["taught", "turned", "now"]  # just taught, about to be reversed
 
 
 class TaughtPlan(Record, frozen=True, kw_only=True):
-    """A job with its script. Each world teaches the script with different errors."""
+    """A job with its script. In each world, the script is taught with different errors."""
 
     job: JobName
     script: str
@@ -80,7 +80,9 @@ class TaughtPlan(Record, frozen=True, kw_only=True):
 
 
 def read_taught_plan(data: bytes, name: str) -> TaughtPlan:
-    """Decode a plan, without executing its script. Raises BadFile."""
+    """Decode a plan, without executing its script. Raises BadFile if the data are not a plan, or if the script is too
+    long.
+    """
     try:
         plan = msgspec.json.decode(data, type=TaughtPlan)
     except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as error:

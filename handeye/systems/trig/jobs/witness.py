@@ -67,7 +67,7 @@ class Witness(Mechanism[InitialScene]):
         self.began = InitialScene(blocks={}, hand=(0.0,) * len(PURBRICK.axes), taught={})
 
     def look(self, data: mujoco.MjData, names: Iterable[str], program: TrigProgram) -> None:
-        """Record the scene with these blocks, and the taught positions of a program."""
+        """Record the poses of the blocks `names` and of the hand, and the taught positions of a program."""
         now = stands(data, names)
         taught = {name: position.init for name, position in program.positions.items()}
         self.began = InitialScene(blocks=now.blocks, hand=now.hand, taught=taught)
@@ -83,7 +83,7 @@ class Witness(Mechanism[InitialScene]):
         turned = state.turned or state
         alike = {*turned.blocks} == {*state.blocks}
         if not (alike and state.sound and turned.sound and np.isfinite([*state.taught.values()]).all()):
-            raise BadFile("the recorded place before the run is not valid")
+            raise BadFile("the recorded scene before the run is not valid")
 
     def restore(self, state: InitialScene) -> None:
         self.began = state

@@ -94,7 +94,9 @@ FAULTS: Final = Catalogue(
         expected=ExpectedDetection(harmless="The hand can hold a hundred times the weight of a block."),
     ),
     FaultKind(
-        name=SLIPPERY, meaning="Blocks and platter are oiled; the value is their friction coefficient.", when="before",
+        name=SLIPPERY, meaning=(
+            "Blocks and platter are oiled: their friction coefficient has this value."
+        ), when="before",
         size=Size(unit="", usual=0.05, limits=(0.01, 0.3)),
         expected=ExpectedDetection(
             harmless="Blocks stay flat where they are put, and the hand holds them with its full force."

@@ -53,7 +53,7 @@ def read_arguments(usage: str, takes: tuple[Kind, ...], needs: int, rest: str) -
 
 
 def read_branch(word: str) -> int:
-    """Parse a branch of a guarded step. Raises BadArgument."""
+    """Parse a branch of a guarded step. Raises BadArgument if the word is not a branch."""
     branch = BRANCHES.get(word.strip().rstrip(".").upper())
     if branch is None:
         raise BadArgument(f"{quoted(word.strip())} is not a branch; type n (normal) or g (guarded)")
@@ -61,7 +61,9 @@ def read_branch(word: str) -> int:
 
 
 def read_threshold(word: str) -> float:
-    """Parse a threshold given in ounces, and convert it to N. Raises BadArgument."""
+    """Parse a threshold given in ounces, and convert it to N. Raises BadArgument if the word is not a number, or is
+    negative.
+    """
     ounces = number(word.strip())
     if ounces < 0:
         raise BadArgument(f"a threshold must be 0 oz or more, not {quoted(word.strip())}")
@@ -69,7 +71,9 @@ def read_threshold(word: str) -> float:
 
 
 def read_vector(text: str) -> Vector3:
-    """Parse a force vector, which is typed as three weights in parentheses. Raises BadArgument."""
+    """Parse a force vector, which is typed as three weights in parentheses. Raises BadArgument if the text has another
+    form, or if all three weights are 0.
+    """
     found = _VECTOR.fullmatch(text.strip())
     if found is None:
         raise BadArgument(f"{quoted(text.strip())} is not a force vector; write it like (0 0 1)")

@@ -59,7 +59,9 @@ def here(session: Session, given: Arguments) -> None:
 
 
 def here_relative(session: Session, given: Arguments) -> None:
-    """SR: store, under a name, the offset from the place where the last step ended to the arm's present place."""
+    """SR: measure the offset of the arm's present place from the place where the last step ended, and store this
+    offset under a name.
+    """
     start = session.program.ended_at
     if start is None:
         raise Refused("no step has moved the arm yet; to measure a distance, use CALPOS and ENDCAL")
@@ -72,7 +74,9 @@ def begin_way(session: Session, given: Arguments) -> None:
 
 
 def end_way(session: Session, given: Arguments) -> None:
-    """ENDCAL: store, under a name, the offset from the place that CALPOS remembered to the arm's present place."""
+    """ENDCAL: measure the offset of the arm's present place from the place that CALPOS remembered, and store this
+    offset under a name.
+    """
     if session.origin is None:
         raise Refused("type CALPOS first, to record the start")
     _define(session, given.position or "", session.arm.here().seen_from(session.origin), relative=True)

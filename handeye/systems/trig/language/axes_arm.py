@@ -28,13 +28,13 @@ APPROACH: Final = 5e-3
 """Length (m) of the last part of a set-down. This part is vertical, because a slanted path would push a stack over."""
 DEEPER: Final = 2e-3
 """Distance below a place (m) within which the arm must find support when it puts an object back. Places are taught
-with an accuracy of .3 mm, so an object may have dropped by .6 to .9 mm when it was released. The arm may also have
-grasped the object too high, by the same distance.
+with an accuracy of .3 mm, so an object may have dropped by .6 to .9 mm when it was released. In addition, the arm may
+have grasped the object .6 to .9 mm too high.
 """
 AGAIN: Final = 1.5
-"""Permitted force during a reversal, as a multiple of the force met in the move itself. The factor is the same as for
-the pump. When the hand has pressed an object onto a support and then rises, the sensed force changes by about the
-force met in the move.
+"""Permitted force during the reversal of a move, as a multiple of the force that the move met. The factor is the same
+as for the pump. When the hand has pressed an object onto a support and then rises, the sensed force changes by about
+the force that the move met.
 """
 _TARE: Final = 10  # readings averaged before a guarded move
 

@@ -1,9 +1,9 @@
 """Executes typed lines as commands, from a terminal or a script. An invalid line is refused with a one-sentence
 message.
 
-A script has the lines that a user would type at a terminal. Each command is a line. The next lines are the actions on
-the teach box (`X 0 Y 0 Z 250 RECORD`) and the answers to the questions of this command. A line may also begin with the
-prompt or the question that the terminal shows. Remarks begin with `;`.
+A script has the lines that a user would type at a terminal. Each command is a line. The lines after a command are the
+actions on the teach box (`X 0 Y 0 Z 250 RECORD`) and the answers to the command's questions. A line may also begin
+with the prompt or the question that the terminal shows. Remarks begin with `;`.
 """
 
 from collections import deque
@@ -65,7 +65,7 @@ def stripped(line: str) -> str:
 
 
 def command_of(word: str) -> TrigCommand:
-    """Return the command for a word in upper or lower case. Raises NoSuchName."""
+    """Return the command for a word in upper or lower case. Raises NoSuchName if there is no such command."""
     upper = word.upper()
     command = COMMANDS.get(SYNONYMS.get(upper, upper))
     if command is not None:
@@ -103,7 +103,7 @@ class Script(Desk):
         halted: Halted = lambda: False,
         slip: Callable[[int], float] = lambda _: 0.0,
     ) -> None:
-        """Read these lines. `slip` returns the teaching error (m) of a jog of X, Y or Z; its argument is the
+        """Prepare to read `lines`. `slip` returns the teaching error (m) of a jog of X, Y or Z; its argument is the
         number of such jogs that came before.
         """
         self._lines, self._halted = enumerate(lines, 1), halted

@@ -73,14 +73,14 @@ class Desk(ABC):
 
 
 def number(word: str) -> float:
-    """Parse a number. Raises BadArgument."""
+    """Parse a number. Raises BadArgument if the word is not a number."""
     if not _NUMBER.fullmatch(word):
         raise BadArgument(f"{quoted(word)} is not a number")
     return float(word)
 
 
 def yes(word: str) -> bool:
-    """Parse yes or no. Raises BadArgument."""
+    """Parse yes or no. Raises BadArgument if the word is neither."""
     answer = word.strip().rstrip(".!").casefold()
     if answer not in ("y", "yes", "n", "no"):
         raise BadArgument(f"{quoted(word.strip())} is not an answer; type Yes or No")

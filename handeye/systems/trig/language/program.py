@@ -83,8 +83,8 @@ class TrigProgram:
         return [done.place for done in self.trail if done.node == id]
 
     def above(self, id: int) -> int:
-        """Return the step above a node. The way up follows the most recent father of each node. If there is no such
-        step, return the top.
+        """Return the step above a node. The way up follows the most recent father of each node. If there is no step
+        above the node, return the top.
         """
         id = self.graph[id].recent_father
         while id not in (TOP, NONE) and not self.graph[id].shown:

@@ -20,8 +20,8 @@ from handeye.systems.trig.language.trig_arm import Halted, HoldOff, MissingConta
 from handeye.touch.senses import as_before, at_least, least_gap
 
 AGAIN: Final = 1e-3
-"""A contact is sought again up to this distance (m) beyond the old place of the contact. Our choice: 1/12 of the
-height of a block.
+"""The arm looks for an earlier contact up to this distance (m) beyond the place of this contact. Our choice: 1/12 of
+the height of a block.
 """
 Stop = Literal["halted"] | Obstacle
 _MIN_MOTION: Final = 1e-6  # m; a shorter step has no direction
@@ -48,7 +48,7 @@ def undo_last(program: TrigProgram, arm: TrigArm, halted: Halted) -> Stop | None
 
 
 def _way_back(program: TrigProgram, done: RecordedStep, arm: TrigArm, halted: Halted) -> Stop | None:
-    """Return to the start of a move. If the arm took up an object there, set it down again."""
+    """Return to the start of a move. If the arm took up an object at this start, set the object down again."""
     if _took_up(program) and at_least(arm.gap, least_gap(0.0)):
         return arm.set_down(done.place, halted, done.met)
     return arm.back(done.place, halted, done.met)

@@ -58,7 +58,9 @@ class Session:
         return found
 
     def step(self, name: str) -> Node:
-        """Return the step called `name`, or the top if `name` is the top's name. Raises NoSuchName."""
+        """Return the step called `name`, or the top if `name` is the top's name. Raises NoSuchName if there is no such
+        step.
+        """
         graph = self.program.graph
         found = graph[TOP] if name == TOP_NAME else graph.named(name)
         if found is None:
@@ -114,8 +116,9 @@ class Session:
         return branch
 
     def taught(self) -> Place:
-        """Let the user move the arm with the teach box, and return the arm's place when the user presses
-        record. Raises KillSwitchHit."""
+        """Let the user move the arm with the teach box, and return the arm's place when the user presses record.
+        Raises KillSwitchHit if the user hits the kill switch.
+        """
         while True:
             button = self.desk.press()
             if button == "record":

@@ -21,7 +21,7 @@ from handeye.systems.trig.language.program import TrigProgram
 
 
 def faults(graph: Graph, positions: Positions) -> Iterator[str]:
-    """Yield the violations of the invariants in words; none if the program is valid."""
+    """Describe in words each invariant that is violated. Yields nothing if the program is valid."""
     torn = list(_edge_faults(graph))
     if not torn and not _has_tree(graph):
         torn = ["some steps are not connected to the top"]
@@ -157,7 +157,7 @@ def write_program(path: Path, program: TrigProgram) -> None:
 
 
 def read_program(path: Path) -> TrigProgram:
-    """Read a program, with its positions as they were defined. Raises BadFile."""
+    """Read a TRIG program, with its positions as they were defined. Raises BadFile if the file is not valid."""
     return decoded(read_whole(path, LARGEST), str(path))
 
 
@@ -215,7 +215,9 @@ def _node_fields(graph: Graph, node: Node, numbers: Mapping[int, int]) -> dict[s
 
 
 def decoded(content: bytes, name: str) -> TrigProgram:
-    """Return the program in the content of a file. Messages call the file `name`. Raises BadFile."""
+    """Return the program in the content of a file. Messages call the file `name`. Raises BadFile if the content is not
+    a valid TRIG program.
+    """
     try:
         return _program(content)
     except (msgspec.DecodeError, UnicodeDecodeError, RecursionError):

@@ -83,7 +83,7 @@ class OutOfTravel(Refused):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Arrival:
-    """How a guarded move ended. `force` is the weighted force (N)."""
+    """How a guarded move ended. `force` is the force (N), weighted by the force vector of the move."""
 
     kind: Literal["reached", "tripped", "halted"]
     force: float = 0.0
@@ -121,8 +121,9 @@ class TrigArm(ABC):
 
     @abstractmethod
     def back(self, goal: Place, halted: Halted, met: float = 0.0) -> Literal["halted"] | Obstacle | None:
-        """Return to an earlier place with a force limit of 1.5 times `met` (N). Returns None if the arm reached the
-        place. If the arm stopped before the place, returns the reason.
+        """Return to an earlier place. `met` is the force (N) that the arm met on its way from that place; the force
+        limit of the return is 1.5 times `met`, and at least the usual limit of the arm. Returns None if the arm
+        reached the place. If the arm stopped before the place, returns the reason.
         """
 
     @abstractmethod

@@ -120,8 +120,9 @@ def ends_job(runner: Runner, result: Result) -> bool:
 
 
 def account(runner: Runner, pause: Pause, result: Result, *, after: int | None = None) -> JobReport:
-    """Return the result of a job that has ended. `after` is the number of steps before the reversal, if one was
-    set."""
+    """Return the result of a job that has ended. `after` is the number of steps that the job did before the reversal,
+    or None if the user set no number.
+    """
     system, world = job_of(runner), runner.setup.world
     job, plan, turn = system.job, plan_of(runner.setup), system.state.turn
     way, told = _way(runner, pause)

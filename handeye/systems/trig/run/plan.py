@@ -77,7 +77,7 @@ def encode(plan: TaughtPlan) -> bytes:
 
 
 def decode(data: bytes, name: str) -> TaughtPlan:
-    """Decode and check a plan. Raises BadFile."""
+    """Decode and check a plan. Raises BadFile if the plan is not valid."""
     plan = read_taught_plan(data, name)
     try:
         listing(plan)
@@ -87,13 +87,15 @@ def decode(data: bytes, name: str) -> TaughtPlan:
 
 
 def imagined(plan: TaughtPlan) -> TrigProgram:
-    """Return the program that results if a plan's script is taught to an imaginary arm. Raises InvalidInput."""
+    """Return the program that results if a plan's script is taught to an imaginary arm. Raises LineRefused if a line
+    of the script cannot be executed.
+    """
     return typed(plan.script, f"{plan.job}.trig")
 
 
 def typed(text: str, name: str) -> TrigProgram:
     """Return the program that results if a script is taught to an imaginary arm. The steps are the same in every
-    world, but the places are not. Raises LineRefused.
+    world, but the places are not. Raises LineRefused if a line of the script cannot be executed.
     """
     session, asked = new_session("none"), 0
 

@@ -223,7 +223,9 @@ class RunningJob(RunningSystem):
         return None if ran.obstacle is None else told_obstacle(ran.obstacle)
 
     def _stand_before(self, number: int) -> None:
-        """Update the state after a step was reversed: either that step comes next, or the reversal is complete."""
+        """Update the state after a step was reversed: either the step before it is the next to reverse, or the
+        reversal is complete.
+        """
         state, program = self._state, self.job.session.program
         assert state.undoing is not None
         self._note()
@@ -289,7 +291,7 @@ class RunningJob(RunningSystem):
         return completed
 
     def built(self) -> Findings:
-        """Return findings on the finished work before its reversal."""
+        """Return the findings on the finished work as it was before its reversal."""
         turn = self._state.turn
         return self.job.built() if turn is not None and turn.ended else {}
 

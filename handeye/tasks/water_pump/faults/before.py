@@ -65,8 +65,10 @@ def _base() -> Iterator[PartFault]:
         ExpectedDetection(errors=(PART_NOT_SEEN,), calls=(detect.UNSEEN,)),
     )  # fmt: skip
     yield _fault(
-        "base.turned", "The base is turned: the line from its first to its second large hole points in "
-        "this direction.",
+        "base.turned", (
+            "The base is turned: the line from its first to its second large hole has this angle to the x axis of "
+            "the table."
+        ),
         lambda spec, yaw: scene.turn(spec, "base", scene.plate_centre(), yaw),
         ExpectedDetection(
             errors=(PART_NOT_SEEN, FEATURES_NOT_SEEN), calls=(detect.UNSEEN,),
@@ -105,8 +107,9 @@ def _gasket() -> Iterator[PartFault]:
         Size(unit="in", usual=0.09, limits=(0.02, 0.5)),
     )  # fmt: skip
     yield from _moved(part, "the gasket", {
-        "x": ExpectedDetection(calls=(detect.GASKET_OFF,), harmless="The hand searches for the gasket around its "
-        "place."),
+        "x": ExpectedDetection(calls=(detect.GASKET_OFF,), harmless=(
+            "The hand searches for the gasket around the place where the gasket should lie."
+        )),
         "y": ExpectedDetection(
             errors=(SEARCH_EXHAUSTED,), calls=(detect.GASKET_OFF, detect.ON_PINS),
             harmless="The search finds the pins even if the hand holds the gasket .25 inch off its centre.",
@@ -244,7 +247,7 @@ def _holes(count: int) -> Iterator[PartFault]:
 
 
 def _stations(screws: int) -> Iterator[PartFault]:
-    """Yield faults of stations that have moved on the table, with the parts that wait in them."""
+    """Yield the faults in which a station has moved on the table, together with the parts in it."""
     waiting, expected = [f"screw{k}" for k in range(screws)], detect.MOVED_DISPENSER
     yield from _station(Station.DISPENSER, "dispenser with its screws", waiting, expected, usual=9.0)
     yield from _station(
@@ -276,7 +279,9 @@ def _screwdriver_and_light() -> Iterator[PartFault]:
         ExpectedDetection(calls=(detect.loose_screw(1),)),
     )  # fmt: skip
     yield _fault(
-        "light.shadow", "A card in the light casts the edge of its shadow across the base.", scene.shade,
+        "light.shadow", (
+            "A card hangs between the lamp and the base, and the edge of its shadow crosses the base."
+        ), scene.shade,
         detect.POOR_LIGHT,
     )  # fmt: skip
 

@@ -41,8 +41,8 @@ def declared(
 
 
 def broken(those: Iterable[PumpFault[B]], faults: Sequence[Fault]) -> list[tuple[Fault, B]]:
-    """`those` are declared faults. Return the run's faults, `faults`, that are among the declared ones, each with its
-    declared effect.
+    """Return the faults of a run (`faults`) that are also among the declared faults (`those`), each with its declared
+    effect.
     """
     known = {fault.name: fault.breaks for fault in those}
     return [(fault, known[fault.name]) for fault in faults if fault.name in known]

@@ -147,8 +147,8 @@ def _hand() -> Iterator[DeviceFault]:
     yield _fault(
         f"{gap}.factor", "The gap reading is the true gap times this factor.", gap, GainEffect,
         replace(expected, harmless=(
-            "The switches feel parts between the fingers; if the gap reading is wrong by less than a tenth, the "
-            "fingers still hold a part equally well."
+            "The switches of the fingers still feel a part. If the gap reading is wrong by less than a tenth, the "
+            "fingers hold the part as firmly as with a correct reading."
         )),
         Size(unit="", usual=1.15, limits=(0.1, 5.0)),
     )  # fmt: skip
@@ -228,8 +228,10 @@ def _joints() -> Iterator[DeviceFault]:
         yield _fault(
             f"brake.{number}.slips",
             f"The brake {joint} holds only this fraction of its torque.", f"brake.{number}", GainEffect,
-            replace(wrong, harmless="The brakes need to hold the arm only while a picture is taken, and the "
-                "potentiometers show how far the arm has sunk."),
+            replace(wrong, harmless=(
+                "The arm depends on its brakes only while a picture is taken, and the potentiometers show how far "
+                "the arm has sunk."
+            )),
             Size(unit="%", usual=10.0, limits=_PERCENT_LEFT),
         )  # fmt: skip
     yield _fault(
@@ -260,8 +262,8 @@ def _screwdriver() -> Iterator[DeviceFault]:
         ExpectedDetection(errors=(CURRENT_WRONG,)),
     )  # fmt: skip
     within = (
-        "When a screw seats, the noise of the current hides a factor of 1.1. When the motor starts, the noise "
-        "hides a factor of .7."
+        "When a screw seats, the noise of the current hides a torque that is 1.1 times too large. When the motor "
+        "starts, the noise hides a torque of .7 times the true torque."
     )
     yield _fault(
         f"{current}.factor", "The current of the screwdriver's motor shows the true torque times this "
@@ -292,8 +294,8 @@ def _screwdriver() -> Iterator[DeviceFault]:
                 "SCREW {number} IS NOT ON THE BIT: IT IS LOST, OR LOOSE IN ITS HOLE",
                 detect.NO_SCREW,  # the screw is fetched once more, and may have moved by then
             ),
-            harmless="A screw weighs .06 N, a hundredth of the magnet's usual force: a magnet that carries a screw "
-                "also holds it straight.",
+            harmless="A screw weighs .06 N, a hundredth of the magnet's usual force. A weak magnet that can still "
+            "carry a screw also holds the screw straight.",
         ),
         Size(unit="%", usual=1.0, limits=_PERCENT_LEFT),
     )  # fmt: skip

@@ -34,8 +34,8 @@ from handeye.tasks.water_pump.faults.mishap import Mishap, MishapFault, MishapSt
 PUSH_S: Final = 2.0
 MOVE_S: Final = 1.0
 HAND: Final = (4000.0, 60.0, 150.0)
-"""Stiffness (N/m), damping (N s/m) and greatest force (N) of the hand that moves the base. In a measurement with these
-values, the base ended 2 mm short of its goal.
+"""Stiffness (N/m), damping (N s/m) and greatest force (N) of the person's hand that moves the base. In a measurement
+with these values, the base ended 2 mm short of its goal.
 """
 LIFTED_M: Final = 0.02  # m; a part that has risen this far is held by the hand alone
 
@@ -212,7 +212,9 @@ class Mishaps(Mechanism[MishapsState]):
             if not 0 <= (own.seconds or 0.0) < np.inf:
                 raise ValueError("a fault has an impossible time")
             if (own.seconds is None or mishap.watched is None) != (own.place is None):
-                raise ValueError("a fault belongs to a different part")
+                raise ValueError(
+                    "a fault has a place although it can have none, or has no place although it needs one"
+                )
 
     def restore(self, state: MishapsState) -> None:
         self._states = list(state.mishaps)

@@ -18,8 +18,8 @@ from handeye.tasks.water_pump.faults.scene_changes import METAL
 
 LAST_STAGE: Final = 12
 LATER_S: Final = 150.0
-"""Time (s) since the beginning of the last stage. By then, the screws have been driven again, but no picture has been
-taken.
+"""Time (s) from the beginning of the last stage to the fault. At this time, the screws have been driven again, but no
+picture has been taken.
 """
 JAM_FRICTION_NM: Final = 20.0  # more than the arm can turn
 STICKING_N: Final = 50.0  # vertically; more than the weight of the screwdriver and fingers that press on it
@@ -76,8 +76,8 @@ def _jam(scene: Scene, _: MishapState) -> bool:
 
 
 def _stop(angle: float) -> Mishap:
-    """Return a mishap in which the rotor meets a stop at an angle (rad) from the rotor's present position. The stop is
-    only on one side.
+    """Return a mishap in which the rotor meets a stop at an angle (rad) from the rotor's present position. In the
+    other direction, the rotor can still turn freely.
     """
 
     def act(scene: Scene, _: MishapState) -> bool:
@@ -163,7 +163,7 @@ def _screws() -> Iterator[MishapFault]:
         )
         meaning = (
             f"A person loosens screw {number} by this number of turns, {LATER_S:.0f} s after the stage began. In "
-            "the last stage, the program has by then already driven the screw again."
+            "the last stage, the program tightens the screw again before this moment."
         )
         yield declared(
             f"screw.{number}.loosened", meaning, _loosened_by(number - 1), expected, size, stage=LAST_STAGE,

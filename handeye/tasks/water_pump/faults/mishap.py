@@ -1,5 +1,6 @@
-"""Defines a mishap, an event that happens once to the parts of a pump's cell, and the scene in which it
-happens."""
+"""Defines mishaps, and the scene in which they happen. A mishap is an event that happens once to the parts of a pump's
+cell.
+"""
 
 from collections.abc import Callable
 from dataclasses import dataclass

@@ -1,4 +1,6 @@
-"""Changes of the scene that represent the faults of parts: a part is removed, displaced, or has the wrong shape."""
+"""Changes of the scene that represent the faults of parts. A change removes a part, displaces it, or gives it a wrong
+shape.
+"""
 
 from __future__ import annotations
 
@@ -121,7 +123,7 @@ def chip(spec: mujoco.MjSpec, high: float) -> None:
 
 
 def shade(spec: mujoco.MjSpec, _: float) -> None:
-    """Hang a card half way between the lamp and the base, so that its shadow covers the base up to the middle."""
+    """Hang a card half way between the lamp and the base, so that the card shades one half of the base."""
     light, base = next(each for each in spec.lights if each.name == "key").pos, spec.body("base").pos
     card = spec.worldbody.add_geom(
         name="card", type=spec.geom("hub").type, contype=0, conaffinity=0, group=2, rgba=[0.2, 0.2, 0.2, 1.0]

@@ -33,8 +33,8 @@ blocks. The joint's two sensors agree, and the camera is calibrated with the wro
 the cell reveal the error.
 """
 JOINT_OR_PLACE: Final = "{what}, OR A JOINT READS WRONG"
-"""Calls to the operator for a place that is not where it should be, or not where it was, and for a hole or pin
-that is not found. Either the place is wrong, or the gear or the potentiometer of a joint is faulty.
+"""Calls to the operator if a fixture or part is not at its expected or earlier place, or if a hole or pin is not
+found. Either the object is out of place, or the gear or the potentiometer of a joint is faulty.
 """
 UNSEEN: Final = "THE BASE IS NOT SEEN ON THE BELT: ITS {what}"
 NOT_WHERE_SEEN: Final = (
@@ -79,9 +79,9 @@ ONCE: Final = {
     NOTHING_HELD: (NOT_WHERE_SEEN, NOT_LIFTED, NO_DRIVER, NO_TOP),
     SEARCH_EXHAUSTED: (PIN_IN_NO_HOLE, ON_PINS, SCREW_IN_NO_HOLE, NOT_WHERE_SEEN, NO_BASE),
 }
-"""Each of these errors counts the same as the calls listed with it. The careful program names the fault with one of
-these calls; a program that tries every step only once, like the program of 1973, reports the fault with the error.
-An error and its calls are treated as the same name.
+"""Errors that name the same fault as a call to the operator. For each error, the calls that are equivalent to it: the
+careful program names the fault with one of these calls, and a program that tries every step only once, like the
+program of 1973, reports the fault with the error.
 """
 
 STIFF_ROTOR: Final = "THE ROTOR IS HARD TO TURN, OR A JOINT OF THE ARM IS"
@@ -95,12 +95,12 @@ LOST_SCREW: Final = (
 
 MOVED_DISPENSER: Final = ExpectedDetection(
     calls=(NO_SCREW, LOST_SCREW),
-    harmless="The bit searches for each screw around its place.",
+    harmless="The bit searches for each screw around the screw's planned place.",
 )
 MOVED_TOP_STAND: Final = ExpectedDetection(
     calls=(NO_TOP, TOP_LOST, TOP_ASTRAY),
     stages=(PUT_ON_TOP,),
-    harmless="Fingers that close on the top's hub grasp the top where it is.",
+    harmless="The fingers close on the top's hub, so they also grasp a displaced top.",
 )
 NO_PIN: Final = ExpectedDetection(errors=(NOTHING_HELD,), calls=(NOT_IN_HOLDER,), stages=(INSERT_PINS,))
 NO_HOLE_FOR_PIN: Final = ExpectedDetection(
@@ -133,7 +133,10 @@ def loose_screw(number: int) -> str:
 
 
 def driven_loose_screw(number: int) -> str:
-    return f"SCREW {number} STAYS IN ITS HOLE WITHOUT TORQUE: ITS POINT, ITS THREAD OR THE BIT IS WRONG, OR NO TOP IS UNDER IT"
+    return (
+        f"SCREW {number} STAYS IN ITS HOLE WITHOUT TORQUE: "
+        "ITS POINT, ITS THREAD OR THE BIT IS WRONG, OR NO TOP IS UNDER IT"
+    )
 
 
 def high_screw(number: int) -> str:
@@ -169,14 +172,15 @@ def missing_pin(number: int) -> str:
 
 
 def screw_of(hole: int) -> int:
-    """Return the number of the screw that the program drives into a tapped hole. The program leaves hole 7 of
-    the later make of the pump empty."""
+    """Return the number of the screw that the program drives into a tapped hole. The program leaves hole 7 of a pump
+    with seven screws empty.
+    """
     return SCREWED.index(hole) + 1 if hole in SCREWED else hole
 
 
 def if_used(number: int, expected: ExpectedDetection) -> ExpectedDetection:
-    """Return `expected` if the program uses the screw or hole with this number. The later make of the pump has a
-    seventh screw and hole, which the program does not use. For number 7, the expectation is therefore unknown: only
-    the referee reports the faults.
+    """Return `expected` if the program uses the screw or hole with this number. A pump with seven screws has a seventh
+    hole, and the program uses neither this screw nor this hole. For number 7, the expectation is therefore unknown:
+    only the referee reports the faults.
     """
     return expected if number <= len(SCREWED) else UNKNOWN

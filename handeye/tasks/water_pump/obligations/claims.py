@@ -231,7 +231,7 @@ class PumpClaims:
         )
 
     def corner(self, corner: int) -> Contact:
-        """Return the contact of the hand with the bare face near one of four holes."""
+        """Return the contact of the hand with the bare face of the base near one of four holes."""
         low, high = base_top(), base_top() + 0.45 * INCH
         return self.places.touched(self.places.over_hole(_CORNERS[corner], 0.6 * INCH, low, high))
 
@@ -282,7 +282,7 @@ class PumpClaims:
             of=self.places.touched(end), over=self.places.table, limits=Limits(7.95 * INCH, 8.25 * INCH)
         )
         return Claim(
-            says="after letting go of the screwdriver, the fingers feel the end of the screwdriver in the rack 8.1 "
+            says="after letting go of the screwdriver in the rack, the fingers feel its end at a height of 8.1 "
             "inches over the table, with a tolerance of .15 inch",
             phases=(Phase(by=(by,), undone=(Gripped(where=held), Released(where=held))),),
         )

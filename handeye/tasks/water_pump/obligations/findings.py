@@ -76,8 +76,8 @@ def _sensed(screws: int) -> Iterator[Obligation]:
         Obligation(finding="screws_crossed", claims=threaded, rests="A crossed screw stops at least .17 in too high."),
         Obligation(
             finding="screws_clamp", claims=tight,
-            rests="A screw that is driven later shifts the load of the others. The program feels the torque stop, "
-            "not the clamping force: if a thread is hard to turn, its screw clamps less.",
+            rests="A screw that is driven later shifts the load of the others. The program measures the torque, not "
+            "the clamping force: if a thread is hard to turn, its screw clamps less.",
         ),
         Obligation(finding="screws_strain", claims=(claims.gentle(),), rests=_CLUTCH),
         Obligation(finding="screws_turned", claims=(claims.gentle(),), rests=_CLUTCH),
@@ -86,7 +86,7 @@ def _sensed(screws: int) -> Iterator[Obligation]:
         Obligation(finding="rack", claims=rack, rests=_RACK),
         Obligation(finding="rack_tilt", claims=rack, rests=_RACK),
         Obligation(
-            finding="dispenser", claims=driven, rests="If each thread has its screw, no screw is loose."
+            finding="dispenser", claims=driven, rests="If each thread has its screw, no screw lies elsewhere."
         ),
         Obligation(
             finding="rotor", claims=free,
@@ -98,17 +98,17 @@ def _sensed(screws: int) -> Iterator[Obligation]:
         Obligation(finding="motor", claims=(claims.motor_off(),), rests=_SERVO),
         Obligation(
             finding="rest", claims=(claims.released(),),
-            rests="A part that hangs outside the hand is felt only where another finding asks for a touch.",
+            rests="The program notices a hanging part only if another finding requires a touch of this part.",
         ),
     )  # fmt: skip
 
 
 _SLIDES: Final = "A push with more than 40 oz slides the pump on the table."
 _LAYERS: Final = (
-    "An object under a head raises the head. If it raises the head by less than .02 in, it may remain unnoticed; "
-    "the referee allows .012 in."
+    "An object under the head of a screw raises the head. An object that raises the head by less than .02 in may "
+    "remain unnoticed; the referee allows .012 in."
 )
-_CLUTCH: Final = "The clamping force to which a torque leads depends on the friction of thread and head."
+_CLUTCH: Final = "The clamping force that a torque causes depends on the friction of the thread and the head."
 _HOLDER: Final = "If a pin leans or is not in its hole, its end is lower or higher than it should be."
 _RACK: Final = (
     "If the screwdriver leans or hangs on its guides, its end is lower or higher than it should be."
@@ -117,25 +117,26 @@ _BEARING: Final = (
     "Only the height of the crank pin's end is felt. A bent crank may remain unnoticed, and so may a rotor that is "
     "out of its bearing by less than .07 in; the referee allows .004 in."
 )
-_SERVO: Final = "Arm and hand have no command left, because each step waits for the end of its motion."
+_SERVO: Final = (
+    "The arm and the hand have executed all commands, because each step waits for the end of its motion."
+)
 _UNSENSED: Final = {
     "screws_hold": "A test of whether a screw holds would loosen the screw.",
     "threads_scarred": "The arm does not feel a scar; the referee only warns of one.",
     "floor": "No step looks under the table.",
     "tray": (
-        "It is a property of the simulation: while a carrier represents a screw in its thread, the screw's own "
-        "body stays on its tray."
+        "In the simulation, the screw's own body stays on its tray while a carrier represents the screw in its thread."
     ),
     "still": "No step waits to see whether a part comes to rest.",
     "arm_still": (
         "The program does not measure whether the arm is at rest; the servo ends each motion at rest, or raises an "
         "error."
     ),
-    "overlap_bores": "It is a property of the simulation: solids do not pass through each other.",
-    "overlap": "It is a property of the simulation: solids do not pass through each other.",
-    "as_drawn": "It is a property of the simulation: no part changes during a run.",
-    "bonds": "It is a property of the simulation: bonds open and close only as the work requires.",
-    "held": "It is a property of the simulation: nothing but the arm acts on the parts.",
-    "numbers": "It is a property of the simulation: its numbers are finite.",
+    "overlap_bores": "In the simulation, solids do not pass through each other.",
+    "overlap": "In the simulation, solids do not pass through each other.",
+    "as_drawn": "In the simulation, no part changes during a run.",
+    "bonds": "In the simulation, bonds open and close only as the work requires.",
+    "held": "In the simulation, only the arm acts on the parts.",
+    "numbers": "In the simulation, all numbers are finite.",
 }
-"""Findings that no program is asked to show, and for each the reason."""
+"""Findings that no program is asked to show, each with the reason."""

@@ -1,4 +1,5 @@
-"""Regions of the pump's cell in which a touch means something, and the limits of what is felt there.
+"""Regions of the pump's cell in which a touch shows something about a part, and the limits of what the hand may feel
+in each region.
 
 The places follow from the drawing of the cell, and the limits from docs/care.md: each limit is a little wider than the
 limit in the careful program, and no wider than that page justifies.

@@ -4,8 +4,8 @@ from typing import Final
 
 BLOCK_GAP: Final = 1.27  # mm, .05 in: reference test 59, displacement from the standard position
 BASE_HEIGHT: Final = 0.5
-"""Greatest height error (mm) of the base's reference point. It is not 0, because contacts are soft. A base that hangs
-on a block is 6 mm too high.
+"""Greatest height error (mm) of the base's reference point. The limit is not 0, because contacts are soft. A base that
+hangs on a block is 6 mm too high.
 """
 BASE_TILT: Final = 0.3  # deg: 1 mm over the length of the plate's shorter half
 BASE_YAW: Final = 1.0  # deg, of the base's edge against the far block: the assembly study's criterion
@@ -18,22 +18,22 @@ limit would already reveal a lost chip under the layer (assembly study).
 SCREW_GAP: Final = 0.2
 """Greatest gap between head and flange (mm). A cross-threaded screw stands 4.4 to 5.7 mm high (assembly study)."""
 SCREW_CLAMP: Final = 40.0
-"""Least clamping force of a screw (N). It is more than the 19 N with which a hand pulls. Seated screws end at 56 to
-298 N.
+"""Least clamping force of a screw (N). The limit exceeds 19 N, the force with which a hand pulls. The clamping force of
+seated screws is 56 to 298 N.
 """
 SCREW_TURNED: Final = 400.0
-"""Greatest force under a head when its screw was last turned (N). In pumps that the arm has made, it is at most 250 N.
-With the least friction that thread and head have in any world, the torque of the driver's clutch, .32 N m, causes at
-most 357 N; twice this torque causes 530 to 560 N.
+"""Greatest force (N) under the head of a screw when the screw was last turned. In pumps that the arm has made, it is
+at most 250 N. With the least friction that thread and head have in any world, the torque of the driver's clutch, .32 N
+m, causes at most 357 N; twice this torque causes 530 to 560 N.
 """
 SCREW_STRAIN: Final = 420.0
-"""Greatest force under a head at the end (N). It may exceed SCREW_TURNED, because screws that are tightened later
-shift the load. In pumps that the arm has made, it is at most 298 N.
+"""Greatest force (N) under the head of a screw when the work is finished. The force may exceed SCREW_TURNED, because
+screws that are tightened later shift the load. In pumps that the arm has made, the force is at most 298 N.
 """
 SCREW_HOLD: Final = 0.02
-"""Least torque to turn a screw back (N m): the friction torque of a clean thread without clamp. With a clamping
-force of 40 N, this torque is at least .026 N m in any world. Without friction, the clamping force itself would
-turn the screw out.
+"""Torque (N m) that must at least be necessary to turn a screw back. It is the friction torque of a clean thread
+without a clamping force. With a clamping force of 40 N, this torque is at least .026 N m in any world. Without
+friction, the clamping force itself would turn the screw out.
 """
 SCREW_SIZE: Final = 0.35
 """Greatest deviation of any length or radius from the design (mm): the play of a screw's point in a tapped
@@ -44,8 +44,8 @@ SCREW_THREAD: Final = 6.35
 mm of thread in the base.
 """
 SCREW_PLACE: Final = 0.12
-"""Greatest distance (mm) between the axes of a screw and its hole: the loosest fit of a 1/4-20 thread of class 2,
-with pitch diameters of .2127 in and .2224 in (ASME B1.1).
+"""Greatest distance (mm) between the axes of a screw and its hole. It is the play of the loosest fit of a 1/4-20
+thread of class 2: half the difference between the pitch diameters .2127 in and .2224 in (ASME B1.1).
 """
 SCREW_LEAN: Final = 1.0  # deg: at this tilt, one side of a head 11 mm wide is lifted by about SCREW_GAP
 SCARS: Final = 0
@@ -63,11 +63,11 @@ farther.
 PIN_PLACE: Final = 3.0  # mm from its place in the holder: the holder's hole and its bevel
 PIN_SEATED: Final = 1.0
 """Greatest distance (mm) of the middle of a pin's shoulder from the mouth of its hole in the base: the depth of the
-chamfer. A pin that stands in the chamfer, or beside its hole, is at least 19 mm high.
+chamfer. If a pin stands in the chamfer, or beside its hole, this distance is at least 19 mm.
 """
 PIN_LEAN: Final = 2.0
 """Greatest tilt (degrees) of a pin in its hole in the base. With .05 mm of play, a nose of 19 mm can tilt by .3
-degrees; the contacts are soft.
+degrees. The limit is larger because the contacts are soft.
 """
 PIN_TILT: Final = 10.0  # deg: a pin tilted by more leans out of the holder
 RACK_TILT: Final = 5.0
@@ -78,12 +78,13 @@ RACK_PLACE: Final = 3.0  # mm from its place in the rack: guides and their bevel
 
 ROTOR_TORQUE: Final = 0.1
 """Greatest torque (N m) to turn the rotor all the way round, in both directions: twice the friction of the rotor,
-which is .05 N m in every world. Inertia and bearing add .01 N m at the speed of the referee's turn. The check in the
-reference, 40 oz at the crank, allows .35 N m, but a rotor that needs this torque binds.
+which is .05 N m in every world. Inertia and bearing add .01 N m at the speed of the referee's turn. A rotor that needs
+.35 N m binds, although the check in our notes on the system of 1973, 40 oz at the crank, accepts this torque.
 """
 
 ROTOR_PLACE: Final = 0.1
-"""Distance (mm) of the rotor from its bearing, and of the crank pin from its place. The bearing has no play."""
+"""Greatest distance (mm) of the rotor from its bearing, and of the crank pin from its place. The bearing has no play.
+"""
 ROTOR_LEAN: Final = 0.1  # deg from the top's axis: in the design, the two axes are parallel
 
 STILL: Final = 1.0
@@ -100,19 +101,20 @@ HAND_CLEAR: Final = 25.0  # mm from the hand to any part: a hand that holds or t
 
 APART: Final = 3.0  # mm from where the run found a part: the next run must find the part there again
 APART_GASKET: Final = 6.0
-"""Greatest distance of the returned gasket from its original position (mm). Fingers that close on the gasket on its
-stand draw it along before they lift it: by 3.3 mm in the world of seed 0. The gasket is laid back where it was lifted.
-If it were displaced by 6.4 mm, the fingers of the next run would not fit into its holes.
+"""Greatest distance of the returned gasket from its original position (mm). When the fingers close on the gasket, they
+first drag it along its stand, by 3.3 mm in the world of seed 0, and then lift it. The arm returns the gasket to the
+place from which it was lifted. If the gasket were displaced by 6.4 mm, the fingers of the next run would not fit into
+its holes.
 """
 APART_TURN: Final = 3.0
-"""Greatest turn (degrees) of a part. At this turn, the end of a part as long as the base has moved by half of the
+"""Greatest turn (degrees) of a part. At this turn, the end of a part of the base's length has moved by half of the
 fingers' clearance.
 """
 
 SETTLE: Final = 0.2  # s: long enough to compute the present forces, and for unsupported parts to fall
 TRAY: Final = 3.0
 """Greatest distance (mm) of the parked body of a screw from its place on the tray below the floor. While a carrier
-represents the screw, the screw would exist twice if its body were elsewhere.
+represents the screw, the body of the screw must stay on the tray: anywhere else, the body would be a second screw.
 """
 FORCE: Final = 0.0  # N and N m, external, on a part or the arm: nothing may be held by an unseen hand
 MERGED: Final = 0.1

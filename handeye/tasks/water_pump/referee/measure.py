@@ -54,8 +54,8 @@ def head_gap(measured: SettledState, hole: int) -> float:
 
 
 def misfit(measured: SettledState, layer: str, hole: int) -> float:
-    """Return the distance between the axes of a screw and of its hole in gasket or top (m), at the end of the hole
-    where this distance is greater.
+    """Return the distance between the axes of a screw and of its hole in the gasket or the top (m), at the end of the
+    hole where this distance is greater.
     """
     axis, mouth = measured.data.site(f"thread{hole}"), measured.data.site(f"{layer}_hole{hole}").xpos
     down = -thickness(layer) * measured.pose(layer)[:3, 2]
@@ -213,7 +213,7 @@ def _alone(measured: SettledState) -> tuple[mujoco.MjModel, mujoco.MjData]:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Overlap:
-    """The depth of an overlap (m), and the names of the two shapes."""
+    """The depth of an overlap (m), and the names of the two shapes that overlap."""
 
     depth: float  # m
     between: str

@@ -1,5 +1,5 @@
 """Judges whether the hand stands over the web of the base, between its two large holes. An exercise of the course uses
-this as its referee (docs/course.md).
+this referee (docs/course.md).
 """
 
 from math import acos, hypot
@@ -14,12 +14,12 @@ from handeye.tasks.stanford_cell.arm import ARM
 from handeye.tasks.stanford_cell.dimensions import web_centre
 
 OVER_WEB: Final = hypot(INCH / 3, INCH / 4) / MILLIMETRE
-"""Greatest horizontal distance (mm) of the hand from the middle of the web: 1/3 in along x and 1/4 in along y, the
-accuracy of vision in 1973.
+"""Greatest horizontal distance (mm) of the hand from the middle of the web. In 1973, vision was accurate to 1/3 in
+along x and 1/4 in along y; this limit is the distance if both errors occur together.
 """
 ACROSS_WEB: Final = 3.0
 """Greatest angle (deg) between the finger line and the line between the large holes. Two pictures determine the
-direction of the base to .26 deg (root mean square); the rest is for the arm. Our choice.
+direction of the base to .26 deg (root mean square); the rest of the angle allows for errors of the arm. Our choice.
 """
 
 

@@ -1,4 +1,4 @@
-"""Adds furniture and details that only photographs show: tape reels, teletype, clock, boom cables and bevels.
+"""Adds furniture and details that appear only in photographs: tape reels, teletype, clock, boom cables and bevels.
 
 These objects touch nothing, have no mass, and are in a geom group that the television camera does not see.
 """
@@ -43,7 +43,7 @@ def dress(shaper: Shaper) -> None:
 _REEL_RADIUS_M: Final = 0.100
 _TELETYPE_PLACE_M: Final = (-1.70, -0.55)
 _TURN: Final = [math.cos(math.radians(-5)), 0.0, 0.0, math.sin(math.radians(-5))]
-"""Quaternion that turns the furniture towards the lamp that lights photographs. Without this turn, some faces would be
+"""Quaternion that turns the furniture towards the lamp of the photographs. Without this turn, some faces would be
 nearly parallel to the light and look speckled.
 """
 

@@ -14,7 +14,9 @@ from handeye.tasks.water_pump.world.pump_world import PumpWorld
 LEFT, BACK, RIGHT, FRONT = -2.4, -2.0, 6.0, 6.0
 """Bounds of the room (m); it has walls on the left and at the back."""
 TRAY = -2.0
-"""Height (m) of a tray below the floor, out of sight, for screws that are represented by a carrier in a thread."""
+"""Height (m) of a tray below the floor, out of sight. While a carrier in a thread represents a screw, the screw's own
+body lies on this tray.
+"""
 
 
 Point3 = tuple[float, float, float]

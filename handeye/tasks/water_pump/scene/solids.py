@@ -57,7 +57,7 @@ def prism(profile: Sequence[Point], y0: float, y1: float) -> Manifold:
 
 
 def tube(points: Sequence[tuple[float, float, float]], radius: float) -> Manifold:
-    """Return a round tube of a radius (m) along a path through points (m)."""
+    """Return a round tube with the radius `radius` (m) along a path through the given points (m)."""
     balls = [Manifold.sphere(radius, 12).translate(point) for point in points]
     return Manifold.batch_boolean([Manifold.batch_hull(list(two)) for two in pairwise(balls)], OpType.Add)
 

@@ -23,8 +23,8 @@ Grain = Callable[[np.random.Generator], Array]
 
 
 def add_textures(spec: mujoco.MjSpec) -> None:
-    """Give the materials their grain. Each grain is computed with its own random generator, so the grain is always the
-    same.
+    """Give the materials their grain. Each grain is computed with a random generator of its own with a fixed seed, so
+    the grain is always the same.
     """
     for name, pixels in _pixels().items():
         texture = spec.add_texture(name=name, type=mujoco.mjtTexture.mjTEXTURE_2D)
@@ -103,7 +103,7 @@ def _woven(rng: np.random.Generator) -> Array:
 
 
 def _tiles(rng: np.random.Generator) -> Array:
-    """Return linoleum tiles in alternating tones, two by two in a picture."""
+    """Return a picture of four linoleum tiles, two by two, in alternating tones."""
     half = _SIZE // 2
     tone = np.kron(np.array([[0.94, 0.80], [0.80, 0.94]]), np.ones((half, half)))
     joint = np.arange(_SIZE) % half < 3

@@ -13,9 +13,9 @@ from handeye.tasks.water_pump.world.pump_world import PumpWorld
 from handeye.tasks.water_pump.world.stations import Station
 
 _POLES: Final = 6
-"""Number of poles of the bit's magnet. The poles lie on a circle that halves the area of a screw head. MuJoCo's
-adhesion acts only where geoms are near. Because of the circle, the magnet pulls the whole face of a head that hangs by
-its edge, and so straightens the head.
+"""Number of poles of the bit's magnet. The poles lie on a circle that divides the face of a screw head into two equal
+areas. MuJoCo's adhesion acts only where geoms are near each other. With poles on such a circle, the magnet pulls the
+whole face of a head that hangs by its edge, and so straightens the head.
 """
 _POLE: Final = 5e-4  # m, radius: they lie within the bit, a twentieth of a millimetre behind its face
 

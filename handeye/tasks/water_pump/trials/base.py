@@ -76,7 +76,11 @@ class BaseTrial(Trial[BaseAttempt]):
             return attempt.failure or "not found"
         x, y, turn = attempt.error
         off = f"x {x / INCH:+.3f} in, y {y / INCH:+.3f} in, yaw {turn / DEGREE:+.2f} deg"
-        return f"something else was found, off by {off}" if attempt.wrong else f"found, off by {off}"
+        return (
+            f"something other than the hole was found, off by {off}"
+            if attempt.wrong
+            else f"found, off by {off}"
+        )
 
     def outcome(self, attempt: BaseAttempt) -> Literal["right", "missed", "wrong"]:
         return "wrong" if attempt.wrong else "missed" if attempt.error is None else "right"

@@ -92,8 +92,9 @@ class GasketTrial(Trial[GasketAttempt]):
 def _inspected(
     still: StillPump, base: Place, part: Part, view: View, rng: np.random.Generator
 ) -> dict[str, bool]:
-    """Return the verdict of vision on the gasket in each case. Each picture is compared with the same picture
-    taken before the gasket was placed."""
+    """Return the verdict of vision on the gasket in each case. Each picture is compared with a picture of the same
+    view, taken before the gasket was placed.
+    """
     before = still.camera.digitise()
     stand = still.pose("gasket")
     X_WP = planar(*base) @ planar(0.0, 0.0, base_top(), 0.0)

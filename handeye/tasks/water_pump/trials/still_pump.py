@@ -139,7 +139,7 @@ def known_camera(
     still: StillPump, known: Known, renderer: str, about: tuple[float, float, float]
 ) -> CameraModel:
     """Return the camera model that the program knows. If `known` is `sightings`, the model is calibrated with
-    simulated sightings of points near `about` (m, in W). Raises CalibrationFailed.
+    simulated sightings of points near `about` (m, in W). Raises CalibrationFailed if the camera cannot be calibrated.
     """
     match known:
         case "lamp":

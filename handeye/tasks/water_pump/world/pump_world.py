@@ -57,7 +57,8 @@ class PumpWorld(ArmWorld):
     """One world of the pump, with the errors drawn for it."""
 
     base: Placing
-    """The pump base on the belt, in W: its reference point, and the direction of the line between its holes."""
+    """The pump base on the belt, in W: its reference point, and the direction of the line between its two large holes.
+    """
     camera: CameraErrors
     light: Light
     fixtures: dict[str, Placing]  # error of each fixture

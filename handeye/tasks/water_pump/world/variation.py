@@ -17,7 +17,9 @@ from handeye.tasks.water_pump.world.stations import stations
 BELT_X: Final = (41.5, 47.5)
 BELT_Y: Final = (23.0, 33.0)
 BELT_LINE: Final = (60.0, 120.0)
-"""Ranges of the base on the belt: reference point (in), and direction of the line between its hole centres (deg)."""
+"""Where the base may lie on the belt: the ranges of x and y of its reference point (in), and the range of the
+direction of the line between the centres of its two large holes (deg).
+"""
 RUBBING: Final = ("pad", "table", "part", "thread")
 DRILLED: Final = ("base", "gasket", "top")  # the parts with screw holes, each drilled with errors of its own
 STOOD: Final = ("gasket", "top")
@@ -129,11 +131,11 @@ def _fixtures() -> Iterator[Quantity]:
             {"x": Normal(0.02), "y": Normal(0.02), "z": Normal(0.01), "yaw": Normal(0.2), "pitch": Normal(0.1),
              "roll": Normal(0.1)},
             ("in", "in", "in", "deg", "deg", "deg"),
-            "Position, height and tilt of the fixture relative to its drawing, as set up with a rule, a square and "
-            "a spirit level. Sigma is the tolerance of ISO 2768-1, class m: .5 mm for lengths of 120 to 400 mm, .3 "
-            "mm for heights of 30 to 120 mm, and 20 minutes of arc for angles whose shorter side is 50 to 120 mm "
-            "long. So a third of the fixtures exceed this tolerance. A rule has divisions of 1/64 in; a spirit "
-            "level is accurate to .5 to 1 mm/m, .03 to .06 deg.",
+            "Position, height and tilt of the fixture relative to its drawing, as set up with a steel rule, a "
+            "square and a spirit level. Sigma is the tolerance of ISO 2768-1, class m: .5 mm for lengths of 120 to "
+            "400 mm, .3 mm for heights of 30 to 120 mm, and 20 minutes of arc for angles whose shorter side is 50 "
+            "to 120 mm long. So a third of the fixtures exceed this tolerance. A steel rule has divisions of 1/64 "
+            "in; a spirit level is accurate to .5 to 1 mm/m, .03 to .06 deg.",
         )  # fmt: skip
 
 
@@ -155,8 +157,8 @@ def _parts() -> Iterator[Quantity]:
     by_hand = f"the papers do not say how accurately the parts stood on their stands. {DOUBLED}"
     off = {"x": Uniform(0.03), "y": Uniform(0.03), "yaw": Uniform(1.0)}
     played = (
-        "Position within the play that the guides or the hole allow, uniformly distributed. The position stays within "
-        "the play at the level `high`, too. A pin has no play, because the bevel of its hole centres it."
+        "Position within the play that the guides or the hole allow, uniformly distributed. At the level `high`, "
+        "too, the position stays within the play. A pin has no play, because the bevel of its hole centres it."
     )
     play = {axis: Uniform(IN_PLAY / 2) for axis in "xy"}
     numbers = range(1, max(MAKES) + 1)
@@ -171,8 +173,8 @@ def _parts() -> Iterator[Quantity]:
         group("parts.driver", play, "%", played, greatest=IN_PLAY),
         *(_of(k, group(f"parts.screws.{k}", play, "%", played, greatest=IN_PLAY)) for k in numbers),
         group("parts.driver", {"yaw": Uniform(0.3)}, "deg",
-            "Rotation of the screwdriver in its guides. The width of the guides allows this play, in addition to the "
-            "play of the screwdriver's position.", greatest=0.6),
+            "Rotation of the screwdriver in its guides. The width of the guides allows this rotation, in addition "
+            "to the play of the screwdriver's position.", greatest=0.6),
         [Quantity(name="part_mass", unit="%", distribution=Normal(2.0), limits=(-90.0, MOST["%"]), source=masses,
                   unsourced=cast)],
         rubbing(RUBBING),
