@@ -38,13 +38,13 @@ def play_an_episode() -> None:
 
 def read_a_data_set_back(folder: Path) -> str:
     """Write two runs as a data set, read every frame back with LeRobot, and return a sentence about it."""
-    from lerobot.datasets.lerobot_dataset import LeRobotDataset
-
     runs = [
         handeye.assemble(seed, script=LOOK, camera="ray", out=folder.with_name("runs") / f"{seed}")
         for seed in (3, 4)
     ]
     written = write_dataset(folder, [folder.with_name("runs")])
+    from lerobot.datasets.lerobot_dataset import LeRobotDataset
+
     back = LeRobotDataset(f"handeye/{folder.name}", root=folder, video_backend="pyav")
     assert (back.num_episodes, back.num_frames, back.fps) == (2, written.frames, RATE), written
     numbers = back.hf_dataset.remove_columns(back.meta.image_keys).with_format("numpy")
