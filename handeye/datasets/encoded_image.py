@@ -1,4 +1,4 @@
-"""An image that is encoded once, however often it is saved. Needs Pillow, which LeRobot installs."""
+"""An image that is encoded once, however often it is saved. Needs Pillow, of the extra `lerobot`."""
 
 from io import BytesIO
 from os import PathLike
