@@ -243,7 +243,7 @@ def test_the_working_phase_needs_nothing_but_arithmetic_from_outside() -> None:
 
 PEERS = {"pandas", "roboticstoolbox"}
 """What handeye hands tables to, or is measured beside, where somebody has it; elsewhere it says so."""
-PACKAGE_OF = {"cv2": "opencv-python-headless", "google": "protobuf"}
+PACKAGE_OF = {"cv2": "opencv-python-headless", "google": "protobuf", "PIL": "pillow"}
 """Packages whose modules have other names."""
 
 

@@ -15,7 +15,7 @@ TELEVISION = "observation.images.television"
 
 folder, number = Path(sys.argv[1]), int(sys.argv[2]) if len(sys.argv) > 2 else 0
 data = LeRobotDataset(f"handeye/{folder.name}", root=folder, episodes=[number], video_backend="pyav")
-frames = data.hf_dataset.with_format("numpy")[:]
+frames = data.hf_dataset.remove_columns(data.meta.image_keys).with_format("numpy")[:]
 times, positions, stages = frames["timestamp"], frames["observation.state"], frames["annotation.stage"]
 names = [name.replace("_", " ") for name in data.features["observation.state"]["names"]]
 force = np.linalg.norm(frames["observation.force"][:, :3], axis=1)

@@ -35,16 +35,13 @@ def lerobot(
     overwrite: Overwrite = False,
     pictures: Annotated[
         bool,
-        Parameter(
-            negative="--no-pictures",
-            help="Include the television pictures, as a video that is compressed with loss.",
-        ),
+        Parameter(negative="--no-pictures", help="Include the television pictures, without loss."),
     ] = True,
     view: Annotated[
         str | None,
         Parameter(
-            help="Also render the view of a camera of the scene, such as studio, and include it as a video. The robot "
-            "does not have this view. Needs OpenGL."
+            help="Also render the view of a camera of the scene, such as studio, and include it as a video that is "
+            "compressed with loss. The robot does not have this view. Needs OpenGL."
         ),
     ] = None,
     json: Json = False,

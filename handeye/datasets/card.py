@@ -52,9 +52,9 @@ what the referee found wrong, and the versions of the programs.
 - The outcome of an episode is known only at its end. A policy must not be given `annotation.outcome` as an observation.
 - Runs with an intervention list it in `meta/handeye.jsonl`.
 """
-_VIEW: Final = """| `privileged.images.view` | view of the camera `{view}` of the scene, rendered from the recorded poses at the moment of the frame, 240 by 320 points. **The robot has no such sensor.** The view shows the true places of the parts, so a policy that uses it is privileged | |
+_VIEW: Final = """| `privileged.images.view` | view of the camera `{view}` of the scene, rendered from the recorded poses at the moment of the frame, 240 by 320 points. **The robot has no such sensor.** The view shows the true places of the parts, so a policy that uses it is privileged. The view is a video that is compressed with loss | |
 """
-_PICTURES: Final = """| `observation.images.television` | the last picture of the television camera, 256 by 333 points, and a black column. Level 15 of 16 is 255. The video is compressed with loss | |
+_PICTURES: Final = """| `observation.images.television` | the last picture of the television camera, 256 by 333 points, and a black column. Each of the 16 levels is 17 times its number, so the highest is 255. The pictures are stored without loss | |
 """
 
 

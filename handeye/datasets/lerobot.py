@@ -8,7 +8,7 @@ import warnings
 from collections.abc import Callable, Iterator, Sequence
 from itertools import repeat
 from pathlib import Path
-from typing import Any, Final
+from typing import TYPE_CHECKING, Any, Final
 
 import msgspec
 import numpy as np
@@ -27,6 +27,9 @@ from handeye.ports.camera import COLUMNS, ROWS, Picture
 from handeye.tasks import any_task
 from handeye.trace.trace import Trace
 
+if TYPE_CHECKING:
+    from handeye.datasets.encoded_image import EncodedImage
+
 CARD: Final = "README.md"
 EPISODES: Final = "meta/handeye.jsonl"
 DATASET: Final = FolderKind(
@@ -40,9 +43,10 @@ DATASET: Final = FolderKind(
 )  # fmt: skip
 PICTURE: Final = "observation.images.television"
 VIEW: Final = "privileged.images.view"  # not `observation`: no port of the robot gives it
-WIDTH: Final = COLUMNS + 1  # video codecs need an even number of columns: the last one is black
+WIDTH: Final = COLUMNS + 1  # even, so that LeRobot can make a video of the images: the last one is black
 LEVEL: Final = 17  # of 255, for each of the 15 levels above black
 _WRITERS: Final = 2  # threads that write the images of the frames
+_BACKEND: Final = "pyav"  # LeRobot would look for others, and warn if they lack the libraries of FFmpeg
 _WRENCH: Final = ("force_x", "force_y", "force_z", "moment_x", "moment_y", "moment_z")
 
 
@@ -68,8 +72,9 @@ def write_dataset(
 
     Args:
         places: folders of runs, or folders that contain such folders.
-        pictures: include the television pictures, as a video. The video is compressed with loss.
-        view: camera of the scene; its view is rendered for each frame, and included as a further video.
+        pictures: include the television pictures, as images without loss.
+        view: camera of the scene; its view is rendered for each frame, and included as a video. The video is compressed
+            with loss.
         progress: called before each run, with its number (from 1) and the number of runs.
 
     Raises:
@@ -95,7 +100,7 @@ def _library() -> Any:
         import av.logging
         from lerobot.datasets.lerobot_dataset import LeRobotDataset
     except ImportError:
-        raise MissingExtra("export lerobot", "lerobot", "lerobot") from None
+        raise MissingExtra("export lerobot", "'lerobot[dataset]'", "lerobot") from None
     av.logging.set_libav_level(
         av.logging.WARNING
     )  # at its usual level, it reports each file that it completes
@@ -128,8 +133,9 @@ def _fill(
                 features=features(joints, pictures=pictures, view=view is not None),
                 root=new,
                 robot_type=robot,
-                use_videos=pictures or view is not None,
+                use_videos=view is not None,
                 image_writer_threads=_WRITERS,
+                video_backend=_BACKEND,
             )
         elif trace.motion.names != joints:
             raise Refused(f"the run in {run} uses a different arm from the runs before it")
@@ -182,9 +188,9 @@ def features(joints: Sequence[str], *, pictures: bool, view: bool) -> dict[str, 
         "next.success": {"dtype": "bool", "shape": (1,), "names": None},
     }
     if pictures:
-        found[PICTURE] = _video(ROWS, WIDTH)
+        found[PICTURE] = _images("image", ROWS, WIDTH)
     if view:
-        found[VIEW] = _video(HEIGHT, VIEW_WIDTH)
+        found[VIEW] = _images("video", HEIGHT, VIEW_WIDTH)
     return found
 
 
@@ -196,16 +202,15 @@ def _text() -> dict[str, Any]:
     return {"dtype": "string", "shape": (1,), "names": None}
 
 
-def _video(height: int, width: int) -> dict[str, Any]:
-    return {"dtype": "video", "shape": (height, width, 3), "names": ["height", "width", "channels"]}
+def _images(stored: str, height: int, width: int) -> dict[str, Any]:
+    return {"dtype": stored, "shape": (height, width, 3), "names": ["height", "width", "channels"]}
 
 
 def lerobot_frames(
     frames: Frames, trace: Trace, episode: Episode, *, pictures: bool, view: str | None
 ) -> Iterator[dict[str, Any]]:
     """Yield the frames of a run by feature."""
-    black = np.zeros((ROWS, WIDTH, 3), np.uint8)
-    shots = [*map(shown, (shot.picture for shot in trace.pictures)), black]  # the last for NO_PICTURE, -1
+    shots = _shots(trace) if pictures else []
     views = repeat(None, len(frames)) if view is None else rendered_view(trace, view, frames.times)
     for k, rendered in zip(range(len(frames)), views, strict=True):
         last = k == len(frames) - 1
@@ -230,6 +235,14 @@ def lerobot_frames(
         if rendered is not None:
             frame[VIEW] = rendered
         yield frame
+
+
+def _shots(trace: Trace) -> "list[EncodedImage]":
+    """Return the television pictures of a run as images. The last one is black, for NO_PICTURE, -1."""
+    from handeye.datasets.encoded_image import EncodedImage
+
+    black = np.zeros((ROWS, WIDTH, 3), np.uint8)
+    return [EncodedImage(each) for each in (*(shown(shot.picture) for shot in trace.pictures), black)]
 
 
 def _single(values: Array | float) -> NDArray[np.float32]:

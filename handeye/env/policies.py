@@ -168,12 +168,21 @@ def check_policy(name: str, maker: PolicyMaker, environment: str, action: Action
 def played(policy: Any, episode: Episode) -> None:
     """Let a policy play an episode to its end. If the policy ends before the episode, the machine stands still until
     the time limit: the policy has not reported that the work is done.
+
+    Raises:
+        BadArgument: the object is not a policy. It may also raise whatever the policy raises.
     """
+    act = getattr(policy, "act", policy)
+    if not (hasattr(policy, "play") or callable(act)):
+        raise BadArgument(
+            f"the function that makes the policy returned an object of type {type(policy).__name__}; it must return an "
+            "object with `play` or `act`, or a function from observations to actions"
+        )
     try:
         if hasattr(policy, "play"):
             policy.play(episode)
-        else:  # an object with `act`, or a plain function from observations to actions
-            _Function(episode.facts, getattr(policy, "act", policy)).play(episode)
+        else:
+            _Function(episode.facts, act).play(episode)
         while True:
             episode.step(_still(episode))
     except EpisodeOver:

@@ -217,5 +217,5 @@ def test_a_run_that_has_not_ended_is_no_episode(tmp_path: Path) -> None:
 
 def test_without_the_library_the_command_names_the_extra(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "lerobot", None)
-    with pytest.raises(MissingExtra, match="`export lerobot` needs lerobot, which is not installed"):
+    with pytest.raises(MissingExtra, match=r"`export lerobot` needs 'lerobot\[dataset\]', which is not"):
         lerobot._library()

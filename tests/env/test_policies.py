@@ -4,9 +4,11 @@ import json
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 from conftest import Command
 
+from handeye.core.errors import BadArgument
 from handeye.env.evaluation import EPISODES, EpisodeRow, Evaluation
 from handeye.env.policies import Episode, played
 from handeye.trials.figures import figures
@@ -132,3 +134,12 @@ def test_an_object_with_act_is_a_policy_without_a_base_class() -> None:
     facts: Any = None
     played(Actor(), Episode(facts=facts, observation="first", advance=advance))  # type: ignore[arg-type]
     assert asked == ["answers first"]
+
+
+@pytest.mark.parametrize("made", [None, np.zeros(13)], ids=["nothing", "an action"])
+def test_a_function_of_observations_that_is_named_as_the_maker_of_a_policy_is_explained(made: object) -> None:
+    episode = Episode(facts=None, observation={}, advance=lambda _: ({}, True))  # type: ignore[arg-type]
+    with pytest.raises(
+        BadArgument, match=rf"returned an object of type {type(made).__name__}; it must return an"
+    ):
+        played(made, episode)
