@@ -65,7 +65,8 @@ class Stiffness:
 
 def stiff(arm: ArmModel, taken: Sequence[Exertion], friction: Array) -> Stiffness | None:
     """Find the joint whose resistance to a motion is much greater than its measured `friction`, shape (n,). Returns
-    None if there is no such joint.
+    None if there is no such joint. In the periods `taken`, nothing may touch the hand: a force on the hand would
+    count as friction.
 
     Torques are averaged over each direction of sliding of each joint, in arrays of shape (2, n).
     """
