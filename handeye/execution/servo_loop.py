@@ -446,7 +446,7 @@ class ServoLoop(Servo):
         If a joint lagged behind, no other joint is blamed.
         """
         friction = self.state.friction
-        found = stiff(self.arm, taken, friction) if taken and friction.any() else None
+        found = stiff(self.built, taken, friction, self.state.weights) if taken and friction.any() else None
         if found is None or lagging not in ("", self.arm.joints[found.joint].name):
             return None
         cause = JointAlone(
