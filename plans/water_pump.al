@@ -535,19 +535,22 @@ DEFINE FEEL SPOT
         STOP    [0 0 -40]
         CHANGE  [0 0 -1] .7 .1
 
-; How high is the face of the base there? It is 1.75 in over the table: closed fingers begin .1 in over it.
-DEFINE PRESS SPOT UNEVEN
+; How high is the face of the base there? It is 1.75 in over the table: closed fingers begin .1 in over it. The arm reaches as
+; far to the place BESIDE the base where it has felt the table, and so is off in height by nearly as much.
+DEFINE PRESS SPOT BESIDE UNEVEN
         MOVE    SPOT
-        RESTORE TABLE
+        RESTORE BESIDE
         STOP    [0 0 -40]
         CHANGE  [0 0 -1] .4 .1
-        HEIGHT  TABLE 1.714 1.786
+        HEIGHT  BESIDE 1.714 1.786
         SKIPN   9
         JUMP    UNEVEN
 
-; Does the base lie flat? LAYERS compares with the heights that are saved here.
+; Does the base lie flat? LAYERS compares with the heights that are saved here. A second round feels everything .06 in farther
+; out, half a converter step of the shoulder: in the same places, the arm would misread its height by as much again.
 DEFINE FLATNESS
         ASSIGN  TRIES 2
+        SEARCH  .06 ALONG 90 STEPS 1
         OPEN    0
 LEAN:   MOVE    TABLEL
         STOP    [0 0 -40]
@@ -558,31 +561,34 @@ LEAN:   MOVE    TABLEL
         STOP    [0 0 -40]
         CHANGE  [0 0 -1] .7 .1
         SAVE    TABLE
-        HEIGHT  TABLEL -.027 .027 ;as high on the other side, or does something lie there, and under the base?
-        SKIPN   9
-        JUMP    UNEVEN
-        PRESS   FACE1 UNEVEN
+        HEIGHT  TABLEL -.036 .036 ;as high on the other side, or does something lie there, and under the base?
+        SKIPE   9
+        JUMP    FACES
+UNEVEN: CHANGE  [0 0 1] 1
+        SOJG    TRIES OUT
+        WAIT    "THE BASE DOES NOT LIE FLAT: SOMETHING LIES UNDER IT OR BESIDE IT, OR A JOINT READS WRONG"
+        JUMP    EVEN
+OUT:    AOJ     LEAN            ;RESTORE takes the face along
+FACES:  PRESS   FACE1 TABLEL UNEVEN
         SAVE    FACE1
-        PRESS   FACE4 UNEVEN
+        PRESS   FACE4 TABLEL UNEVEN
         HEIGHT  FACE1 -.018 .018 ;.26 degrees along this side
         SKIPN   9
         JUMP    UNEVEN
         SAVE    FACE4
-        PRESS   FACE5 UNEVEN
+        PRESS   FACE5 TABLE UNEVEN
         SAVE    FACE5
-        PRESS   FACE2 UNEVEN
+        PRESS   FACE2 TABLE UNEVEN
         HEIGHT  FACE5 -.018 .018
         SKIPN   9
         JUMP    UNEVEN
         SAVE    FACE2
-        JUMP    EVEN
-UNEVEN: CHANGE  [0 0 1] 1
-        SOJG    TRIES LEAN      ;a touch scatters: all once more
-        WAIT    "THE BASE DOES NOT LIE FLAT: SOMETHING LIES UNDER IT OR BESIDE IT, OR A JOINT READS WRONG"
 EVEN:   CHANGE  [0 0 1] 1
 
-; Does a head stand as high over the face as the parts are thick? Felt twice, if it does not.
+; Does a head stand as high over the face as the parts are thick? If it does not, it is felt once more, .06 in farther out: see
+; FLATNESS.
 DEFINE HEAD SPOT OVER NR
+        SEARCH  .06 ALONG 90 STEPS 1
 T:      MOVE    SPOT
         RESTORE Y1
         RESTORE X2
@@ -592,12 +598,13 @@ T:      MOVE    SPOT
         HEIGHT  OVER .493 .529
         SKIPE   9
         JUMP    RIGHT
-        SOJG    AGAIN T
+        SOJG    AGAIN OUT
         HEIGHT  OVER .511 2
         SKIPE   9
         JUMP    HIGH
         WAIT    "SCREW {NR} IS GONE: NO HEAD IS UNDER THE FINGERS, OR THE PUMP HAS MOVED, OR A JOINT READS WRONG"
         JUMP    RIGHT
+OUT:    AOJ     T
 HIGH:   WAIT    "SCREW {NR} STANDS HIGH: IT IS LOOSE, OR SOMETHING LIES UNDER THE TOP, OR A JOINT READS WRONG"
 RIGHT:  ASSIGN  AGAIN 2         ;for the next
 
