@@ -262,8 +262,8 @@ def _screwdriver() -> Iterator[DeviceFault]:
         ExpectedDetection(errors=(CURRENT_WRONG,)),
     )  # fmt: skip
     within = (
-        "When a screw seats, the noise of the current hides a torque that is 1.1 times too large. When the motor "
-        "starts, the noise hides a torque of .7 times the true torque."
+        "When a screw seats, the noise of the current hides a measured torque of 1.1 times the true torque. When "
+        "the motor starts, the noise hides a measured torque of .7 times the true torque."
     )
     yield _fault(
         f"{current}.factor", "The current of the screwdriver's motor shows the true torque times this "
