@@ -32,9 +32,10 @@ MIN_TRAVEL: Final = 0.5  # least fraction of the commanded path; a joint that mo
 MAX_RATIO: Final = 1.8
 """Greatest plausible ratio of the measured friction of a joint to the friction in the joint's data.
 
-Almost all sound joints have a smaller ratio. Many joints whose drives give half of their torque have a larger one. In
-sixty measured worlds, sound joints reached 1.61. In eighty worlds with twice the errors, only one sound joint exceeded
-the limit, with 1.87. If the drive of a joint gave half of its torque, the ratio was 1.4 to 2.3.
+Almost all sound joints have a smaller ratio. If a drive gives only half of its torque, its joint often has a larger
+ratio. In sixty measured worlds, the ratio of a sound joint was at most 1.61. In eighty worlds with doubled errors,
+only one sound joint exceeded the limit, with a ratio of 1.87. If the drive of a joint gave half of its torque, the
+ratio was 1.4 to 2.3.
 """
 
 

@@ -48,7 +48,7 @@ Limits in levels mean something only in pictures of about the usual contrast, wh
 would thus give 1.6 levels, which is the limit `DIFFERENT`. The rest, from 2.9 to 3.3, is a margin for the noise.
 """
 BESIDE: Final = 12
-"""Width (points) of a strip around the part that counts neither as part nor as surroundings.
+"""Width (points) of a strip around the part. The strip counts neither as part nor as surroundings.
 
 The aim of the mount differs slightly from the readings of its potentiometers, and the part casts a shadow.
 """

@@ -25,7 +25,7 @@ def memories(plan: RelayPlan, state: RelayCore) -> dict[str, SystemState]:
     try:
         return {program.file: getattr(state, program.system)[program.file] for program in plan.programs}
     except KeyError as missing:
-        raise BadFile(f"the state of the run has no memory of {missing}") from None
+        raise BadFile(f"the state of the run lacks the memory of the program {missing}") from None
 
 
 def fits(plan: RelayPlan, state: RelayCore) -> bool:
