@@ -166,8 +166,8 @@ def check_policy(name: str, maker: PolicyMaker, environment: str, action: Action
 
 
 def played(policy: Any, episode: Episode) -> None:
-    """Let a policy play an episode to its end. If the policy ends before the episode, the machine stands still until
-    the time limit: the policy has not reported that the work is done.
+    """Let a policy play an episode to its end. If the policy ends without reporting that the work is done, the machine
+    stands still until the time limit.
     """
     try:
         if hasattr(policy, "play"):

@@ -1,7 +1,7 @@
 """Compliant straight motions, in which the measured force moves the set-point.
 
-This is admittance control: the speed of the set-point depends on the force. Every joint stays under its position
-servo. With slack joints, an error of the gravity model would make the hand drift.
+This is admittance control: the speed of the set-point depends on the force. The position servo of every joint stays
+on. With slack joints, an error of the gravity model would make the hand drift.
 """
 
 import math
