@@ -95,8 +95,8 @@ class TravelOutside(CauseRecord, frozen=True, kw_only=True):
 
 
 class HeightOutside(CauseRecord, frozen=True, kw_only=True):
-    """The last motion ended too high or too low. `height` (m) is measured from the place at which the difference
-    `name` was saved.
+    """The last motion ended too high or too low. `height` (m) is the height of the hand above its height at the `SAVE`
+    of the difference `name`.
     """
 
     name: str
