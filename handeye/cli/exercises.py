@@ -75,7 +75,7 @@ def exercise(
         return _begin(chosen, overwrite=overwrite, json=json)
     if file is None:
         if seed is not None or first_seed is not None:
-            raise BadArgument(f"{'--first-seed' if seed is None else '--seed'} needs your program")
+            raise BadArgument(f"{'--first-seed' if seed is None else '--seed'} needs the file of your program")
         return _describe(chosen, json=json)
     if first_seed is not None:
         chosen = _elsewhere(chosen, first_seed)

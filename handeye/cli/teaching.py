@@ -143,7 +143,7 @@ def repl(
     Parameters
     ----------
     script
-        A script, with its taught file and the programs for `DO NAME` next to it.
+        A script. handeye uses the taught file next to it; `DO NAME` looks for the program NAME in the same folder.
     """
     from handeye.al.instructions import INSTRUCTIONS
     from handeye.teaching.answers import converse

@@ -53,7 +53,8 @@ class Timing(Record, frozen=True, kw_only=True):
     lens_s: float
     """Simulated time in which the arm waited for lens change, aim, focus and pictures."""
     overlapped_s: float
-    """Simulated time in which the camera's mechanism and the arm moved at once; `manipulation_s` includes this time.
+    """Simulated time in which the camera's mechanism and the arm moved at the same time; `manipulation_s` includes
+    this time.
     """
     working_s: float
     """Simulated time of the working phase: the sum of `manipulation_s` and `lens_s`."""

@@ -83,7 +83,7 @@ TABLE: Final = (
     ),
     TrigCommand(
         usage="LOOP STEP COUNT", group=STEPS, takes=("step", "count"), needs=2, act=step_commands.loop,
-        help="go back to a step COUNT times, then continue",
+        help="go back to STEP, COUNT times in all; then continue",
     ),
     TrigCommand(
         usage="L STEP [n|g]", group=STEPS, takes=("step", "branch"), needs=1, act=step_commands.link,
