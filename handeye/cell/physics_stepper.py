@@ -19,7 +19,7 @@ changes no force at rest. All contacts except those of the hand may begin and en
 that is tightened in middle steps clamps with less force than a screw that is tightened in short steps.
 
 If a part is crushed, for example between a fixture and a hand that runs into it, the computation may diverge in
-short steps. The same time is then computed again in fine steps.
+short steps. The interval of this step is then computed again in fine steps.
 
 Euler's method moves the joints, and with them the hand, along an arc, but a free body along the tangent. For a free
 body, Euler's method thus leaves out the second-order term of the motion: half the acceleration times the square of the
@@ -124,7 +124,7 @@ class _Contacts:
     pairs: BodyPairs
     of_hand: BodyPairs  # the pairs with a body that the arm moves
     carried: bool
-    """True if all pairs are allowed in long steps."""
+    """True if every pair of bodies that touch is a pair that may touch in long steps."""
     delicate: bool
     """True if at least one of the pairs is not allowed in steps of medium length."""
     held: tuple[tuple[int, int], ...]

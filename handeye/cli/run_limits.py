@@ -71,7 +71,7 @@ def checkpoint_folder(checkpoints: Path | None, out: Path | None) -> Path | None
 
 
 def at_stage(start: "Checkpoint", name: str, kept: Path | None, out: Path | None) -> "Checkpoint":
-    """The checkpoint from which the fewest steps lead to a stage."""
+    """The last checkpoint from which a run reaches a stage; `start` if there is no such checkpoint."""
     from handeye.debugger.breakpoints import stage_number
     from handeye.runs.checkpoint_store import CheckpointStore
     from handeye.runs.folder import EVENTS
