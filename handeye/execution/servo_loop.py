@@ -294,8 +294,8 @@ class ServoLoop(Servo):
         return self._force_in_air() if self.state.in_air and off_zero(self._unloaded()) else REACHED
 
     def _taring(self) -> Motion[bool]:
-        """Take the present force as zero. Returns True if the dither makes the joints slide unevenly although the
-        screwdriver, which would shake the arm, is at rest.
+        """Take the present force as zero. Returns True if the dither makes the joints slide unevenly. If the
+        screwdriver turns, it also shakes the arm; the result is then False.
         """
         here, dither, settle = self.dynamics(), DITHER * self.state.friction, self.arm.servo.settle
         felt, rates = [], []

@@ -15,7 +15,7 @@ class ReachFailureRecord(Record, frozen=True, tag_field="reason", tag=True):
 
     @property
     def named_joints(self) -> tuple[int, ...]:
-        """The joints that the sentence names."""
+        """The joints that the sentence about this reason names."""
         return ()
 
 

@@ -276,8 +276,8 @@ class RunningMl(NumberedRun):
         self.recorder.statement()
 
     def interject(self, text: str, task: str) -> None:
-        """Execute the command FILE in the middle of a statement. The real-time level uses the written words in its
-        next cycle and later.
+        """Execute the command FILE while a statement is still being executed. FILE writes words, and the real-time
+        level uses them from its next cycle.
         """
         side = task or "right"
         if side not in self.interpreters:

@@ -86,8 +86,8 @@ def _jump(statement: Statement) -> int | None:
 
 
 def goals(statement: Statement, places: Axes) -> dict[str, Known]:
-    """Return the place (mm) to which a MOVE moves each of its axes; the place is UNKNOWN if the MOVE goes a distance
-    from an unknown place.
+    """Return the place (mm) to which a MOVE moves each of its axes; the place is UNKNOWN if the MOVE is relative and
+    starts at an unknown place.
     """
     found: dict[str, Known] = {}
     for goal in statement.goals:

@@ -43,7 +43,8 @@ class ProgramPolicy(Policy):
 
 
 class _SeenBus(MicrobusPort):
-    """The bus as an episode offers it. Commands are collected until time passes, and then become one action."""
+    """The bus as an episode offers it. The bus collects the commands for one step of the episode, and makes them one
+    action."""
 
     def __init__(self, episode: Episode) -> None:
         self._episode = episode
