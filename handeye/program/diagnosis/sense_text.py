@@ -38,7 +38,7 @@ def doubt_sentence(cause: s.SenseCause) -> str:
                 if cause.thickness
                 else ""
             )
-            return f"the gap reads {gap} in on {cause.held}, which is {thick} in thick between the fingers{times}"
+            return f"the gap reads {gap} in, but between the fingers is {cause.held}, which is {thick} in thick{times}"
         case s.DrivesUnlike():
             named = zip(cause.joints, cause.factors, strict=False)
             gives = " and ".join(

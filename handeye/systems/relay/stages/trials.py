@@ -264,7 +264,7 @@ def _details(rows: Sequence[StageRow]) -> tuple[Details, ...]:
                 "For each stage: its legs, and how many lines of the careful program TRIG, ML and MAL cannot express"
             ),
             rows=limits(),
-            heads=("stage", "legs in", "no words in TRIG, ML and MAL for", "lines", "TRIG", "ML", "MAL"),
+            heads=("stage", "legs in", "TRIG, ML and MAL lack words for", "lines", "TRIG", "ML", "MAL"),
         ),
     )  # fmt: skip
 
