@@ -78,7 +78,7 @@ class TrialRow(Record, frozen=True, kw_only=True):
 
     @property
     def key(self) -> tuple[str, int]:
-        """The condition and the number of the trial, which together identify it within its sweep."""
+        """The condition and the number of the trial. Together they identify the trial within its sweep."""
         return self.condition, self.trial
 
     @property

@@ -119,8 +119,8 @@ _TOO_FAR = ("search-begun-anew", "count-begun-anew")
 def check_unused(
     script: Script, statements: Iterable[Statement], words: ByWord, used: Used, source: Source
 ) -> Iterator[Diagnostic]:
-    """Report the unused names of a script that has no errors. Taught positions do not count, because another script
-    may use them.
+    """Report the unused names of a script that has no errors. Unused taught positions are not reported, because
+    another script may use them.
     """
     targets = {name.text for name in used[Refers.LABEL]}
     for statement in statements:

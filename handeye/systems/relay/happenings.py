@@ -42,8 +42,8 @@ class LegFinished(SystemEvent, frozen=True, kw_only=True):
 
 
 def _kind(system: str, kind: type[SystemEvent]) -> type[SystemEvent]:
-    """Return a copy of a kind of event with the name of the system in its own name, so that no other system has an
-    event of the same name.
+    """Return a copy of a kind of event. The copy's name begins with the name of the system, so that no other system
+    has an event of this name.
     """
     name = f"{system.capitalize()}{kind.__name__}"
     made: Any = msgspec.defstruct(
