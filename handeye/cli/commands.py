@@ -46,7 +46,7 @@ trace: Read the traces of runs.
 trace show = traces:show: Show what happened in a run, and why.
 trace stats = traces:stats: Count what happened in a run, stage by stage, and show how long it took.
 trace photograph = traces:photograph: Photograph the cell at a moment of a recorded run, without simulating it again.
-trace verify = traces:verify: Repeat a recorded run and compare the two.
+trace verify = traces:verify: Repeat a recorded run, and compare the repetition with the recording.
 trace thin = exports:thin: Shrink a trace to about a tenth of its size, for sharing; the smaller trace keeps the motion that is needed to show the run.
 trace plot = exports:plot: Plot joints, hand force and events of a run against time; needs the extra `plot` (matplotlib).
 trace export: Write joints, forces and events of a run as tables.

@@ -98,7 +98,7 @@ def photograph(
 
 
 def verify(run: RunOrTrace = None, /, *, task: TaskWords = None) -> int:
-    """Repeat a recorded run and compare the two.
+    """Repeat a recorded run, and compare the repetition with the recording.
 
     The actions of operators and experimenters are repeated as well. An interrupted run is compared up to its last
     complete step. There are three answers: the run repeats exactly; it repeats except for rounding in the last digits,

@@ -113,7 +113,7 @@ def test_a_finger_that_the_hand_does_not_come_off_has_no_switch_of_its_own() -> 
     run = gripping("OPEN 2\nCENTER .1", 1.0, lambda read: replace(read, touch=(read.touch[0], False)))
     assert run.errors == [errors.SWITCH_WRONG]
     assert (
-        "the switch of the +y finger is still closed after the hand moved 0.06 in towards this side"
+        "the switch of the +y finger is still closed after the hand moved 0.06 in towards the side of this finger"
         in run.told
     )
     assert run.told.endswith("the two switches are swapped, or the switch of the other finger stays open)")

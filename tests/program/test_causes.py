@@ -93,8 +93,8 @@ WORDS: list[tuple[c.Cause, str]] = [
     ),
     (
         s.SwitchesCrossed(fingers=(True, False), moved=0.06 * INCH),
-        "the switch of the +y finger is still closed after the hand moved 0.06 in towards this side, away from the "
-        "part: the two switches are swapped, or the switch of the other finger stays open",
+        "the switch of the +y finger is still closed after the hand moved 0.06 in towards the side of this finger, "
+        "away from the part: the two switches are swapped, or the switch of the other finger stays open",
     ),
     (
         s.SwitchesHard(fingers=(True, True), force=10 * OUNCE_FORCE),

@@ -19,7 +19,10 @@ def doubt_sentence(cause: s.SenseCause) -> str:
             held = f"something {inches(cause.gap)} thick holds the fingers apart"
             return f"{_switches(cause.fingers)} open although {held}: {_untouched(cause)}"
         case s.SwitchesCrossed():
-            still = f"still closed after the hand moved {inches(cause.moved)} towards this side, away from the part"
+            still = (
+                f"still closed after the hand moved {inches(cause.moved)} towards the side of this finger, away "
+                "from the part"
+            )
             return (
                 f"{_switches(cause.fingers)} {still}: the two switches are swapped, or the switch of the other "
                 "finger stays open"

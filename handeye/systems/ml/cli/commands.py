@@ -25,7 +25,7 @@ from handeye.systems.ml.happenings import Printed
 from handeye.systems.ml.language.check import checked
 from handeye.systems.ml.run.plan import ArmName
 
-MlFile = Annotated[Path, Parameter(help="A program in ML, `.ml`.")]
+MlFile = Annotated[Path, Parameter(help="An ML program (`.ml`).")]
 
 ml = App(
     name="ml",
@@ -111,7 +111,7 @@ def reported(source: Source, *, first: int | None, left: int | None) -> bool:
 
 
 def check(
-    file: Annotated[Path, Parameter(help="A program in ML, `.ml`, or a symbolic program, `.sym`.")],
+    file: Annotated[Path, Parameter(help="An ML program (`.ml`) or a symbolic program (`.sym`).")],
     /,
     *others: Annotated[
         Path,
@@ -192,7 +192,7 @@ def words(word: str | None = None, /) -> int:
 
 
 def console(
-    file: Annotated[Path | None, Parameter(help="A program in ML to load at the start, `.ml`.")] = None,
+    file: Annotated[Path | None, Parameter(help="An ML program (`.ml`) to load at the start.")] = None,
     /,
     *,
     left: Annotated[

@@ -13,7 +13,7 @@ from handeye.systems.ml.run.plan import ArmName
 
 def view(
     program: Annotated[
-        str, Parameter(help="A program in ML, `.ml`, or the name of a job, such as `follow`.")
+        str, Parameter(help="An ML program (`.ml`), or the name of a job, such as `follow`.")
     ],
     /,
     *,

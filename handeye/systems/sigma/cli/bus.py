@@ -113,7 +113,7 @@ def demo(
 
 
 def run(
-    file: Annotated[Path, Parameter(help="A program in MAL, `.mal`.")],
+    file: Annotated[Path, Parameter(help="A MAL program (`.mal`).")],
     /,
     *,
     fault: BusFaults = None,

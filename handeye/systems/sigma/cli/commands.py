@@ -31,7 +31,7 @@ from handeye.systems.sigma.mal.check import checked
 from handeye.systems.sigma.mal.happenings import Printed
 from handeye.systems.sigma.run.plan import LONGEST_STATEMENT_US, ArmName
 
-MalFile = Annotated[Path, Parameter(help="A program in MAL, `.mal`.")]
+MalFile = Annotated[Path, Parameter(help="A MAL program (`.mal`).")]
 StatementTime = Annotated[
     WholeNumber,
     Parameter(
@@ -173,7 +173,7 @@ def words(word: str | None = None, /) -> int:
 
 
 def console(
-    file: Annotated[Path | None, Parameter(help="A program in MAL to load at the start, `.mal`.")] = None, /
+    file: Annotated[Path | None, Parameter(help="A MAL program (`.mal`) to load at the start.")] = None, /
 ) -> int:
     """Open the console of 1981: type the numbered lines of a program, or a command such as RUN; HELP lists the
     commands.

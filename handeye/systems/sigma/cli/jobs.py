@@ -111,8 +111,8 @@ def line(
     errors: OwnErrorOptions = ANY_OWN_ERRORS,
     options: FaultyJobOptions = ANY_FAULTY_RUN,
 ) -> int:
-    """Run an assembly line: a feeder brings pieces, each of two SUPERSIGMAs presses a pin into every piece, and a
-    belt withdraws them.
+    """Run an assembly line: a feeder brings pieces, each of two SUPERSIGMAs presses a pin into every piece, and a belt
+    takes the pieces away.
 
     `plans/line.mal` runs on four simulated arms, a feeder and a belt, in a world with errors. The machine has 26
     microcomputers on one bus of three segments. A referee then checks that each piece stands at its place on the belt,

@@ -139,4 +139,4 @@ _UNSENSED: Final = {
     "held": "In the simulation, only the arm acts on the parts.",
     "numbers": "In the simulation, all numbers are finite.",
 }
-"""Findings that no program is asked to show, each with the reason."""
+"""Findings that programs need not show, each with the reason."""
