@@ -269,8 +269,8 @@ def _is_cut(graph: Graph, node: Node) -> bool:
 
 
 def _mend_tree(graph: Graph) -> None:
-    """Give every node exactly one incoming edge that is not a link. A node keeps its own edge if that edge is still
-    connected to the top.
+    """Give every node exactly one incoming edge that is not a link. If a node already has such an edge, and this edge
+    is still connected to the top, the node keeps it.
     """
     placed = {TOP}
     _follow(graph, TOP, placed)

@@ -223,7 +223,7 @@ def _greatest(
 
 def _hand(measured: SettledState, parts: Sequence[str]) -> Finding:
     """Judge the distance of the hand from the nearest of the given parts. Shapes that are fixed to a part belong to
-    that part. Distances are measured up to twice the limit.
+    that part. A distance of more than twice the limit is reported as twice the limit.
     """
     model = measured.model
     solid = (model.geom_contype | model.geom_conaffinity) != 0
