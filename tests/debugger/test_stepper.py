@@ -573,7 +573,7 @@ def test_a_step_that_cannot_be_written_down_is_undone_and_can_be_done_again(
     [
         ("stpe", "there is no command `stpe`; did you mean `step`?"),
         ("run", "there is no command `run`; did you mean `continue`?"),
-        ("frobnicate", "there is no command `frobnicate`; `help` lists them"),
+        ("frobnicate", "there is no command `frobnicate`; `help` lists the commands"),
         ("contineu", "there is no command `contineu`; did you mean `continue`?"),
         ("step x", "`step` takes a number of 1 or more, not `x`"),
         ("step 0", "`step` takes a number of 1 or more, not `0`"),
@@ -610,7 +610,7 @@ def test_a_step_that_cannot_be_written_down_is_undone_and_can_be_done_again(
         ("skip", "`skip` answers a call to the operator, but no call is waiting for an answer"),
         ("abort", "`abort` answers a call to the operator, but no call is waiting for an answer"),
         ("checkpoint", "this run has no folder for checkpoints; `checkpoint FILE` writes a checkpoint to a file"),
-        ("help me", "there is no command `me`; `help` lists them"),
+        ("help me", "there is no command `me`; `help` lists the commands"),
     ],
 )  # fmt: skip
 def test_a_wrong_command_is_answered_by_one_sentence_and_changes_nothing(
@@ -655,7 +655,7 @@ def test_the_json_of_an_answer_says_where_the_run_stands_and_what_happened(stepp
     assert [event["event"] for event in first["events"]].count("StepFinished") == 3
     assert (first["error"], wrong["error"]) == (
         None,
-        "there is no command `frobnicate`; `help` lists them",
+        "there is no command `frobnicate`; `help` lists the commands",
     )
     assert (wrong["pause"], wrong["events"], wrong["position"]) == (None, [], 3)
 
