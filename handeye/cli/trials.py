@@ -188,7 +188,12 @@ def chaos_trials(
     seed: FirstSeed = 0,
     worlds: Annotated[
         WholeNumber,
-        Parameter(help="Number of worlds. The levels of their errors are nominal, low and high in turn."),
+        Parameter(
+            help=(
+                "Number of worlds. The first world has nominal errors, the second low errors, the third high errors, "
+                "the fourth nominal errors, and so on."
+            )
+        ),
     ] = 3,
     schedule: Annotated[
         list[str] | None,
