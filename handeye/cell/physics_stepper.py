@@ -137,8 +137,8 @@ class PhysicsStepper:
     """Advances the physics of a cell.
 
     If a contact begins or ends during a long step, the long steps of this period are undone, and short steps are made
-    from the last moment before the change. Middle steps are undone if the hand gains or loses a contact, or if a
-    delicate contact begins.
+    from the last moment before the change. Steps of medium length are undone if the hand gains or loses a contact, or
+    if a delicate contact begins.
     """
 
     def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, carrying: Carrying | None = None) -> None:

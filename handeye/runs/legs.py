@@ -37,7 +37,9 @@ class Lack(NamedTuple):
 
 
 class RunningLeg(RunningSystem):
-    """A program during its legs. Between its legs, it keeps its memory, and other programs may move the arm."""
+    """A program of a relay during its legs. Between two of these legs, the program keeps its memory, and other
+    programs may move the arm.
+    """
 
     @abstractmethod
     def stand_at(self, stage: str) -> None:

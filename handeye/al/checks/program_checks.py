@@ -147,8 +147,8 @@ def check_unused(
 
 
 def with_unused(found: list[Diagnostic], unused: list[Diagnostic]) -> list[Diagnostic]:
-    """Join the diagnostics. If a jump goes too far back, and an unused label may be the label that was meant,
-    report the two as one mistake.
+    """Join the diagnostics. A jump may go too far back, past an unused label that the user perhaps meant. Report such
+    a jump and the label as one mistake.
     """
     left, merged = list(unused), []
     for diagnostic in found:

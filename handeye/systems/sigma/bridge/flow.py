@@ -16,8 +16,8 @@ END: Final = None  # stands for the number of a line: the program ends
 
 @dataclass(frozen=True, slots=True)
 class Unknown:
-    """A value that the text of the program does not determine: it depends on the path on which the program reaches a
-    line, or on a force.
+    """A value that the text of the program does not determine, because the value depends on a force, or on the path by
+    which the program reaches a line.
     """
 
 
