@@ -211,11 +211,11 @@ ANY_SAMPLE: Final = SampleOptions()
 def rare_trials(*, options: SampleOptions = ANY_SAMPLE) -> int:
     """Estimate how rarely a program stops, and how rarely it fails silently, by subset simulation.
 
-    The worlds of the first level are made from seeds. In a tenth of the worlds of each level, the program comes
-    closest to failing. The next level is a sample of worlds in which the program comes at least as close to failing as
-    in this tenth. The estimate of the probability is a product: one tenth for each level except the last, times the
-    fraction of worlds of the last level in which the program fails. The product is not a bound. Only a run in a world
-    decides whether the program fails there.
+    The worlds of the first level are made from seeds. From each level, the search takes the tenth of the worlds in
+    which the program comes closest to failing. The next level is a sample of worlds in which the program comes at
+    least as close to failing as in this tenth. The estimate of the probability is a product: one tenth for each level
+    except the last, times the fraction of worlds of the last level in which the program fails. The product is not a
+    bound. Only a run in a world decides whether the program fails there.
 
     Exit code 0: no silent failure; 3: in some world, the program reported success but the referee disagreed; 2: bad
     input; 130: interrupted.

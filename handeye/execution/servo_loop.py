@@ -74,8 +74,8 @@ class Outcome:
     error: int | None = None  # an error of the motion itself (servo lag, watchdog)
     cause: Cause | None = None  # cause of that error, if there is more to say about it
     off: float = 0.0
-    """Distance (m) of the hand from its set-points in the middle of the motion; 0 if the hand ended near enough to the
-    last set-point.
+    """If the hand missed the last set-point: its distance (m) from the set-points in the middle of the motion.
+    Otherwise 0.
     """
 
 

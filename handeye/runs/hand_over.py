@@ -22,8 +22,8 @@ from handeye.program.world_model import rounded_place
 from handeye.vision.calibration import Calibration
 
 MOVED: Final = 3e-3
-"""Distance (m) by which the hand may be off its place in the record. Our choice: while the brakes are set, the hand
-sinks by less than this distance.
+"""Greatest distance (m) of the hand from the place that the record gives. Our choice: while the brakes are set, the
+hand sinks by less than this distance.
 """
 TURNED: Final = 0.02  # rad by which the hand may be turned. Our choice.
 GAP_CHANGED: Final = 1e-3

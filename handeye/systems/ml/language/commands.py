@@ -102,10 +102,10 @@ _ROWS: Final[dict[Category, tuple[tuple[str, str, str, str], ...]]] = {
         ("IF", "x n1 n2 n3", "Go to n1 if x is less than zero, to n2 if it is zero, to n3 if it is greater.",
          "70 IF &1 100 200 300"),
         ("LOOPI", "x [v]", (
-            "Run the statements from here to NEXTI x times. Variable v counts the times, from 1."
+            "Run the statements from here to NEXTI, x times in all. Variable v counts the rounds, from 1."
         ), "10 LOOPI 3 20"),
         ("LOOPJ", "x [v]", (
-            "Run the statements from here to NEXTJ x times. LOOPJ may be inside LOOPI, and LOOPI inside LOOPJ."
+            "Run the statements from here to NEXTJ, x times in all. LOOPJ may be inside LOOPI, and LOOPI inside LOOPJ."
         ),
          "20 LOOPJ 4"),
         ("NEXTI", "", "The end of the statements that LOOPI repeats.", "80 NEXTI"),

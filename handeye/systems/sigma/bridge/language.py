@@ -18,8 +18,8 @@ _SAID = {
     "carries-through-fixture": "what the hand holds would go through a fixture",
     "stop-beyond-arm": "the arm cannot exert the force of this limit",
     "force-beyond-arm": "the arm cannot exert this force",
-    "faint-force": "in free motion, the friction of its joints alone can make the arm feel this force",
-    "faint-moment": "in free motion, the friction of its joints alone can make the arm feel this moment",
+    "faint-force": "in free motion, joint friction alone can make the arm feel this force",
+    "faint-moment": "in free motion, joint friction alone can make the arm feel this moment",
 }
 
 

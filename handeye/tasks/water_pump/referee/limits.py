@@ -107,8 +107,8 @@ place from which it was lifted. If the gasket were displaced by 6.4 mm, the fing
 its holes.
 """
 APART_TURN: Final = 3.0
-"""Greatest turn (degrees) of a part. At this turn, the end of a part of the base's length has moved by half of the
-fingers' clearance.
+"""Greatest turn (degrees) of a part. If a part that is as long as the base is turned by this angle, its end moves by
+half of the fingers' clearance.
 """
 
 SETTLE: Final = 0.2  # s: long enough to compute the present forces, and for unsupported parts to fall
