@@ -73,8 +73,8 @@ def said_of(says: str, claims: Sequence[ClaimProof]) -> str:
 
 
 def _passed(claim: ClaimProof, program: Program) -> str:
-    """Write the lines of the program that show a claim, phase by phase. Every path passes one of the lines of each
-    phase.
+    """Describe, phase by phase, the lines of the program that show that a claim is true. Every path passes one of the
+    lines of each phase.
     """
     said = []
     for step, steps in zip(claim.passed, claim.phases, strict=True):

@@ -52,7 +52,7 @@ def _bodies(statements: Sequence[Statement], source: Source) -> Iterator[Diagnos
 
 
 def _steps_behind(statements: Sequence[Statement], skip: int) -> list[Name]:
-    """Return the words of the first steps after a skip: at most `_MIN_BODY` words, and only those before a label."""
+    """Return the words of the first steps after a skip: at most `_MIN_BODY` words, and none after the next label."""
     words: list[Name] = []
     for number in range(skip + 1, len(statements)):
         word = statements[number].word

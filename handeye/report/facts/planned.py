@@ -127,7 +127,7 @@ def _search(run: RecordedRun, tries: list[tuple[StepStarted, AnyEvent]]) -> Sear
 
 
 class Mover(StrEnum):
-    """The kinds of reasons for shifting a goal."""
+    """What shifted a goal: a saved difference, a part that vision located, or a search."""
 
     SAVE = "saved in"
     LOOK = "seen in"

@@ -212,8 +212,8 @@ def _silent(schedule: Schedule, carried: ScheduleRun, start: Checkpoint) -> tupl
 
 
 def _late(failed: Findings, schedule: Schedule, runner: Runner, start: Checkpoint) -> set[str]:
-    """Return the names of the findings that failed because faults of the schedule spoiled the work after the program's
-    last look.
+    """Return the names of the findings that failed because faults of the schedule spoiled the work when the program no
+    longer sensed it.
     """
     task, plan, world = runner.task, runner.setup.plan, runner.setup.world
     kinds = [task.faults(world).kind(fault.name) for fault in schedule.given(task.faults(world))]

@@ -144,7 +144,9 @@ class _Check:
         )
 
     def pairs(self, line: Line) -> Iterator[Diagnostic]:
-        """Check that each end of a loop or subroutine has its beginning, and that each loop has its end."""
+        """Check that each end of a loop or subroutine has a statement that begins the loop or subroutine, and that
+        each loop has an end.
+        """
         code = line.statement.code
         if code in _PAIRS and _PAIRS[code] not in self._codes:
             yield mistake("M13", f"{code} has no {_PAIRS[code]} in this program", line.spans[0])

@@ -117,7 +117,7 @@ class WiredBus(MicrobusPort):
         )
 
     def _reckon(self) -> None:
-        """Compute the values that no state contains: due times, shown levels, and inputs of the machine."""
+        """Compute the values that are not saved in a state: due times, shown levels, and inputs of the machine."""
         self._due = {number: self._due_of(number, self.now * PS) for number in self._nodes}
         self._shown = {number: self._status(number) for number in self._nodes}
         self._level, self._changed = self._tied(), False

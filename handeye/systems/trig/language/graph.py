@@ -188,7 +188,7 @@ class Graph:
 
 
 def insert_loop(graph: Graph, after: int, branch: int, target: int, wanted: int) -> Node:
-    """Insert a loop below a node, and its bloop above the target. Raises Refused if the target is not above the
+    """Insert a loop below a node, and the loop's bloop above the target. Raises Refused if the target is not above the
     node.
     """
     if after not in graph.distances(target):
