@@ -12,9 +12,7 @@ from handeye.systems.ml.run.plan import ArmName
 
 
 def view(
-    program: Annotated[
-        str, Parameter(help="An ML program (`.ml`), or the name of a job, such as `follow`.")
-    ],
+    program: Annotated[str, Parameter(help="An ML program (`.ml`), or the name of a job, such as `follow`.")],
     /,
     *,
     arm: Annotated[
