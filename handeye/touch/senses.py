@@ -50,7 +50,7 @@ STARTING_TORQUE: Final = 0.05
 STALLED_TORQUE: Final = 0.37
 """Greatest torque of the motor (N m): the torque of the slipping clutch, plus the torque that turns the spindle."""
 STARTING_PERIODS: Final = 4
-"""Servo periods that a motor takes to reach the speed of driving. We measured 4.2 periods."""
+"""Number of servo periods that a motor takes to reach its driving speed. We measured 4.2 periods."""
 FAST_PERIODS: Final = 6
 """Servo periods after which a free motor of the usual speed has certainly started. A motor whose full speed is 1.4
 times the usual speed takes longer.

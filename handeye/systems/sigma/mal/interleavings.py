@@ -35,7 +35,7 @@ HANDS_MEET_MM: Final = 550.0  # sum of these axes beyond which the hands of the 
 FindingKind = Literal["deadlock", "axis", "hands", "variable", "flag", "stops"]
 KINDS: Final[dict[FindingKind, str]] = {
     "deadlock": "no task can continue",
-    "axis": "two tasks drive one axis at once",
+    "axis": "two tasks drive one axis at the same time",
     "hands": "the hands of both arms may meet",
     "variable": "two tasks use a variable, and the result depends on which task is first",
     "flag": "a flag is set again before a task has taken it: one of the two signals is lost",

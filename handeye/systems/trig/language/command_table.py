@@ -115,7 +115,7 @@ TABLE: Final = (
     ),
     TrigCommand(
         usage="DLINK STEP [n|g]", group=CHANGES, takes=("step", "branch"), needs=1, act=step_commands.unlink,
-        help="remove the link from the active step to STEP; another step must also lead to STEP",
+        help="remove the link from the active step to STEP, provided that another step also leads to STEP",
     ),
     TrigCommand(usage="FLUSH", group=CHANGES, act=step_commands.flush, help="erase the program"),
     TrigCommand(
