@@ -44,7 +44,8 @@ def faults(
         WholeNumber | None,
         Parameter(
             name="--n",
-            help="Number of worlds; their seeds count up from --seed. Each fault is tried in each world. Default: 1.",
+            help="Number of worlds. Their seeds are consecutive and begin with --seed. Each fault is tried in each "
+            "world. Default: 1.",
         ),
     ] = None,
     seeds: Seeds = None,

@@ -31,7 +31,10 @@ if TYPE_CHECKING:
 
 Worldly = Annotated[
     WholeNumber,
-    Parameter(name="--n", help="Number of worlds for each disturbance; their seeds count up from --seed."),
+    Parameter(
+        name="--n",
+        help=("Number of worlds for each disturbance. Their seeds are consecutive and begin with --seed."),
+    ),
 ]
 
 

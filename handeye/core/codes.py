@@ -208,8 +208,8 @@ CODES: Final[dict[str, Code]] = {
         "warning",
     ),
     "test-of-no-effect": _warning(
-        "a test skips only another test, so the instructions after the second test do not depend on the error of "
-        "the first test",
+        "a test can skip only the test after it, so the instructions after both tests do not depend on the error "
+        "of the first test",
         "L: CLOSE .1 .2\nSKIPE 2\nSKIPE 7\nJUMP L\nPARK",
     ),
     "test-without-action": _warning("a test does not directly follow an action", "SKIPE 23\nPARK"),

@@ -251,7 +251,9 @@ class _Translation:
         limits = [before.limits[name] for name in moved]
         settings = [*limits, *(before.speeds[name] for name in moved)]
         if any(isinstance(value, Unknown) for value in settings):
-            self._refuse(line, "its LIMIT or SPEED depends on how the program reached this line")
+            self._refuse(
+                line, "the LIMIT or the SPEED of its motors depends on how the program reached this line"
+            )
             return []
         for name, place in moved.items():
             most = TRAVEL[name] * STEP_MM

@@ -126,8 +126,8 @@ def check(
 ) -> int:
     """Check a program as `handeye check` does, and try the orders in which its tasks may run.
 
-    Statements are executed one at a time; motions and delays may take any time. Sensors answer 0, INPUT reads 0, and no
-    motor is aborted.
+    Statements are executed one at a time; motions and delays may take any time. Sensors answer 0, INPUT reads 0, and
+    no motion is aborted.
 
     Exit code 0: nothing was found; 1: there is a deadlock, a race, or a statement that cannot be executed; 2: bad
     input, or a program with errors.

@@ -105,7 +105,7 @@ class _SeenBus(MicrobusPort):
             goal = self._reading("count", command.number) + steps
             self._next |= {f"set.{way}": 1.0, f"goal.{way}": goal * STEP_MM}
         else:
-            raise Refused(f"an action cannot give the command {Op(command.op).name}")
+            raise Refused(f"no action of the environment can carry the bus command {Op(command.op).name}")
 
     def answer(self) -> bytes:
         return self._got
