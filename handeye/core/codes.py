@@ -212,7 +212,7 @@ CODES: Final[dict[str, Code]] = {
         "of the first test",
         "L: CLOSE .1 .2\nSKIPE 2\nSKIPE 7\nJUMP L\nPARK",
     ),
-    "test-without-action": _warning("a test does not directly follow an action", "SKIPE 23\nPARK"),
+    "test-without-action": _warning("a test has no action directly before it", "SKIPE 23\nPARK"),
     "too-many-operands": _error("an instruction has more operands than it takes", "OPEN 1 2"),
     "too-much-required": _error(
         "too many files are required, or the files are too large",
