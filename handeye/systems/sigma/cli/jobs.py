@@ -88,7 +88,7 @@ def insert(
     errors: OwnErrorOptions = ANY_OWN_ERRORS,
     options: FaultyJobOptions = ANY_FAULTY_RUN,
 ) -> int:
-    """Straighten pegs in a rack with both arms, and find the holes for the pegs by force.
+    """With both arms, straighten pegs in a rack, and find the holes for the pegs by force.
 
     `plans/insert.mal` runs on two simulated gantries, in a world with errors. Each peg is rotated by up to 20
     degrees, and plates lie up to 3 mm from their places. A referee then checks that each peg stands in its hole, no
