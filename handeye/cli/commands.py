@@ -31,7 +31,7 @@ stages = scripts:stages: List the stages of a plan and their steps, with their s
 fmt = editing:fmt: Format scripts in columns, like a listing of 1973; comments are kept.
 explain = editing:explain: Explain a diagnostic code, an error number or an instruction; without an argument, list the codes.
 docs = docs:docs: List the pages of the documentation, or print one.
-exercise = exercises:exercise: List the exercises of the course, show one of them, or grade a program. A grade is a verdict over all worlds, with hints.
+exercise = exercises:exercise: List the exercises of the course, show one of them, or grade a program. A grade says in which worlds the program is right, and gives hints.
 lsp = editing:lsp: Serve an editor over standard input and output (language server protocol).
 mcp = agents:mcp: Serve an agent (model context protocol over standard input and output): twelve tools to write and judge programs.
 export: Export a world, or the state of a run, to other programs.

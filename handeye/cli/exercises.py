@@ -45,8 +45,8 @@ def exercise(
     jobs: Annotated[WholeNumber, Parameter(help="Number of processes that work at the same time.")] = 2,
     json: Json = False,
 ) -> int:
-    """List the exercises of the course, show one of them, or grade a program. A grade is a verdict over all worlds,
-    with hints.
+    """List the exercises of the course, show one of them, or grade a program. A grade says in which worlds the program
+    is right, and gives hints.
 
     ```
     handeye exercise
@@ -75,7 +75,9 @@ def exercise(
         return _begin(chosen, overwrite=overwrite, json=json)
     if file is None:
         if seed is not None or first_seed is not None:
-            raise BadArgument(f"{'--first-seed' if seed is None else '--seed'} needs the file of your program")
+            raise BadArgument(
+                f"{'--first-seed' if seed is None else '--seed'} needs the file of your program"
+            )
         return _describe(chosen, json=json)
     if first_seed is not None:
         chosen = _elsewhere(chosen, first_seed)

@@ -145,7 +145,7 @@ class DebugSession:
         if not runner.ended:
             return None
         if runner.trouble is not None:
-            return f"the run cannot continue from here; it can only go back: {runner.trouble}"
+            return f"the run can only go back, and cannot continue from here: {runner.trouble}"
         if runner.call is not None:
             given = ", ".join(f"`{word}`" for word in runner.kind.choices(runner))
             return f"the program calls the operator: answer {given} or `abort`, go back, or `undo`"

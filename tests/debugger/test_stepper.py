@@ -540,7 +540,7 @@ def test_a_run_in_trouble_goes_nowhere_but_back(say: Say, runner: Runner) -> Non
     runner._broken = "the simulation lost its footing"
     assert (
         say("s")[0].error
-        == "the run cannot continue from here; it can only go back: the simulation lost its footing"
+        == "the run can only go back, and cannot continue from here: the simulation lost its footing"
     )
     assert (
         say("set saved H 0 0 0")[0].error

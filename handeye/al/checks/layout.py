@@ -90,5 +90,5 @@ def _torn(macro: Macro, behind: Statement, source: Source) -> Iterator[Diagnosti
             "outside the macro",
             modifier.span,
             Label(span=motion.span, text="this line is after the macro"),
-            help="remove the blank line, which ends the macro, or write a comment on it",
+            help="the blank line ends the macro: remove this line, or write a comment on it",
         )
