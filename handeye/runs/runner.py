@@ -429,7 +429,8 @@ class Runner:
         cell = self.system.cell
         if (cell is None) != (snapshot.cell is None):
             raise BadFile(
-                "the state belongs to a run of a different kind: only one of the two runs has a work cell"
+                "the state belongs to a run of a different kind: either the state or this run has a work cell, but "
+                "not both"
             )
         if cell is not None and snapshot.cell is not None:
             cell.restore(snapshot.cell)

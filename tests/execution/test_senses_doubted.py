@@ -431,11 +431,11 @@ STARTS = [0.05] * 4 + [0.0] * 20
     [
         (
             [0.5 * each for each in STARTS] + [0.185] * 999,
-            "the sensor shows 3.5 oz-in, but the motor takes 7.1 oz-in",
+            "the sensor shows 3.5 oz-in, but the torque of the motor is 7.1 oz-in",
         ),
         (
             [2 * each for each in STARTS] + [0.74] * 999,
-            "the sensor shows 104.8 oz-in, but the motor takes 52.4 oz-in; the reading is 2.0 times",
+            "the sensor shows 104.8 oz-in, but the torque of the motor is 52.4 oz-in; the reading is 2.0 times",
         ),
         ([0.05, 0.03, 0.0, 0.0] + [0.02] * 60 + [0.37] * 999, "so it turns too slowly"),
         (

@@ -135,7 +135,7 @@ WORDS: list[tuple[c.Cause, str]] = [
     ),
     (
         s.CurrentUnlike(torque=3.5 * OUNCE_INCH, known=7 * OUNCE_INCH),
-        "the sensor shows 3.5 oz-in, but the motor takes 7.0 oz-in; the reading is 0.5 times this torque",
+        "the sensor shows 3.5 oz-in, but the torque of the motor is 7.0 oz-in; the reading is 0.5 times this torque",
     ),
     (
         s.DrivesUnlike(joints=(ARM.joints[1],), factors=(1.3,)),

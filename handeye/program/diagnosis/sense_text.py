@@ -54,7 +54,9 @@ def doubt_sentence(cause: s.SenseCause) -> str:
         case s.CurrentUnlike():
             told, known = (torque / OUNCE_INCH for torque in (cause.torque, cause.known))
             times = f"; the reading is {told / known:.1f} times this torque" if known else ""
-            return f"the sensor shows {told:.1f} oz-in, but the motor takes {known:.1f} oz-in{times}"
+            return (
+                f"the sensor shows {told:.1f} oz-in, but the torque of the motor is {known:.1f} oz-in{times}"
+            )
         case s.CurrentShort():
             shown, asked = (torque / OUNCE_INCH for torque in (cause.torque, cause.asked))
             short = f"the sensor shows only {shown:.1f} of the commanded {asked:.1f} oz-in while the motor is stalled"

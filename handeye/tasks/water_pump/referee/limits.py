@@ -11,8 +11,8 @@ BASE_TILT: Final = 0.3  # deg: 1 mm over the length of the plate's shorter half
 BASE_YAW: Final = 1.0  # deg, of the base's edge against the far block: the assembly study's criterion
 
 LAYER_HEIGHT: Final = 0.3
-"""Greatest deviation (mm) of a layer from its nominal height, measured at each screw hole. A deviation of half this
-limit would already reveal a lost chip under the layer (assembly study).
+"""Greatest deviation (mm) of a layer from its nominal height, measured at each screw hole. A chip that was lost under
+the layer would already show as a deviation of half this limit (assembly study).
 """
 
 SCREW_GAP: Final = 0.2
@@ -88,8 +88,8 @@ ROTOR_PLACE: Final = 0.1
 ROTOR_LEAN: Final = 0.1  # deg from the top's axis: in the design, the two axes are parallel
 
 STILL: Final = 1.0
-"""Greatest speed of any point of a part or of the arm (mm/s). While contacts come to rest, parts at rest move at
-up to .1 mm/s; a joint held by its brake creeps at 9e-6 rad/s, which is .01 mm/s at the hand.
+"""Greatest speed of any point of a part or of the arm (mm/s). While contacts settle, even a part that lies still moves
+at up to .1 mm/s; a joint held by its brake creeps at 9e-6 rad/s, which is .01 mm/s at the hand.
 """
 
 REST: Final = 0.25
