@@ -206,7 +206,7 @@ class SimulatedArm(Mechanism[ArmState], ArmPort):
     def check(self, state: ArmState) -> None:
         lengths = {len(state.q), len(state.qd), len(self.dofs if state.command is None else state.command)}
         if lengths != {len(self.dofs)}:
-            raise ValueError("the saved arm has a different number of joints from this arm")
+            raise ValueError("the saved state is the state of an arm with a different number of joints")
         finite([*state.q, *state.qd, *(state.command or ()), state.unanswered], "the arm")
         if state.unanswered < 0:
             raise ValueError("the saved watchdog waits for a time in the past")

@@ -168,9 +168,9 @@ def plan(
     Parameters
     ----------
     output
-        File for the plan. Default: next to the script, with the ending .plan.json; for a program given by name, in
-        the current folder. An earlier plan at the default place is replaced; to replace another file, give
-        --overwrite.
+        File for the plan. By default, the file is next to the script, or in the current folder if you name a program of
+        handeye; its ending is .plan.json. An earlier plan at the default place is replaced; to replace another file,
+        give --overwrite.
     """
     script, work = script_at(file, task)
     target = output or beside(file, ".plan.json")

@@ -164,7 +164,7 @@ def _tell(
     more: Mapping[str, object],
     camera: str,
 ) -> None:
-    """Write page and tables, and print the figures."""
+    """Write the page and the tables of a batch, and print its figures."""
     from handeye.trace.tables import csv_bytes, write_tables
     from handeye.trials.page import PAGE, sweep_page
     from handeye.trials.tables import ROWS as TABLE

@@ -226,10 +226,11 @@ def chaos_trials(
     The checks: the program never reports success with a wrong pump (`silent`); trace, events and state are the same to
     the byte as without interruptions (`resume`); the brakes are on after every stop (`brakes`); the trace can be read
     and says what happened (`trace`); nothing is lost on disk (`disk`); and no exception is raised (`error`). If a
-    schedule fails, the trial shortens the schedule step by step, as long as the shorter schedule still fails. The
-    trial then prints the shortest failing schedule as a command. If a fault spoiled a part of the pump only after the
-    program's last look at this part, the schedule is `unseen` instead of silent. Before the schedules, the command
-    makes one complete run in each world. A complete run takes one CPU minute, and a schedule takes some seconds.
+    schedule fails, the trial removes its elements one by one, and keeps only those without which the schedule does not
+    fail. The trial then prints this shortest failing schedule as a command. If a fault spoiled a part of the pump only
+    after the program's last look at this part, the schedule is `unseen` instead of silent. Before the schedules, the
+    command makes one complete run in each world. A complete run takes one CPU minute, and a schedule takes some
+    seconds.
 
     Exit code 0: all checks passed; 3: a check failed; 2: bad input; 130: interrupted.
     """

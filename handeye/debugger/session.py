@@ -148,7 +148,7 @@ class DebugSession:
             return f"the run can only go back, and cannot continue from here: {runner.trouble}"
         if runner.call is not None:
             given = ", ".join(f"`{word}`" for word in runner.kind.choices(runner))
-            return f"the program calls the operator: answer {given} or `abort`, go back, or `undo`"
+            return f"the program calls the operator: answer {given} or `abort`, or use `back` or `undo`"
         return "the program has ended: `back` goes back from here, `quit` leaves"
 
     def back_to(self, position: int) -> None:

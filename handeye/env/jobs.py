@@ -50,11 +50,10 @@ class Job(Record, frozen=True, kw_only=True):
     findings must hold.
     """
     limits: Mapping[str, float] = msgspec.field(default_factory=dict)
-    """Limits that replace limits of the referee, by finding. They allow for the part of the work that the job leaves
-    out.
+    """For some findings, limits that replace the referee's limits, because the job leaves out a part of the work.
     """
     plants: tuple[str, ...] = ()
-    """The faults from which the seed chooses one, with its size. This fault is planted at the start."""
+    """The faults that can be planted at the start. The seed determines which of them is planted, and its size."""
     sizes: tuple[float, float] = (0.0, 0.0)  # least and greatest size of a planted fault, in the fault's unit
     steps: Mapping[str, tuple[str, ...]] = msgspec.field(default_factory=dict)
     """Steps of the work, in their order. The key is the name of a step. If the step is done, certain findings hold;
@@ -79,7 +78,9 @@ _PUMP: Final = {
     "leave the rotor free": ("rotor",),
 }
 _PART: Final = ("base", "gasket", "top", "rack", "dispenser")
-"""Findings that must hold for an unfinished pump: those on its layers, on the rack and on the dispenser."""
+"""Findings that must hold for an unfinished pump: those about the layers, the screwdriver in its rack, and the
+dispenser.
+"""
 
 PLANNED: Final = (
     Job(

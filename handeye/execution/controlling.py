@@ -13,7 +13,9 @@ from handeye.ports.workcell import Sensed
 from handeye.program.events import CommandedPeriod
 
 Controller = Callable[[Sensed], CommandedPeriod | None]
-"""A function from the readings of a servo period to the commands for the next one; the value None ends the control."""
+"""A function that takes the readings of a servo period and returns the commands for the next period, or None to end
+the control.
+"""
 
 
 def repeated(periods: Sequence[CommandedPeriod]) -> Controller:

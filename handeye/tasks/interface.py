@@ -193,7 +193,7 @@ class Task(AnyTask):
 
     arm: ArmModel
     park: Array
-    """Joint positions at which the cell is switched on (rad or m), shape (n,)."""
+    """Joint positions of the arm when the cell is switched on (rad or m), shape (n,)."""
     script: str | None = None
     """The task's own program: a file among the included plans, or the path of a file elsewhere. The task runs this
     program unless the user names another.

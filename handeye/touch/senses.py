@@ -60,7 +60,7 @@ WIND_UP: Final = 0.2
 measured time is .1 s.
 """
 DRIVEN: Final = 0.2 * INCH
-"""A screw shows its running torque when it has advanced by this distance (m), which is four turns."""
+"""A screw shows its running torque after four turns, in which it advances by this distance (m)."""
 PLATEAU: Final = 1.0
 """Time (s) for which a torque must last to show that the motor is held fast: the time of three turns at driving speed.
 Our choice.

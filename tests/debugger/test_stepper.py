@@ -361,7 +361,7 @@ def test_the_call_of_the_operator_is_told_with_what_can_be_said(say: Say) -> Non
     assert why(called) == ("operator", CALLED)
     assert (
         called.said
-        == "the program calls the operator: answer `proceed`, `retry`, `skip` or `abort`, go back, or `undo`"
+        == "the program calls the operator: answer `proceed`, `retry`, `skip` or `abort`, or use `back` or `undo`"
     )
     assert called.did[-1].outcome == f"error 2: {CALLED}; the program calls the operator"
     assert "  ■ 19          CLOSE   .4" in as_text(called).splitlines()
@@ -628,9 +628,7 @@ def test_going_back_farther_than_the_beginning_is_refused(say: Say) -> None:
 
 
 def test_after_the_call_of_the_operator_going_on_needs_an_answer(say: Say) -> None:
-    refusal = (
-        "the program calls the operator: answer `proceed`, `retry`, `skip` or `abort`, go back, or `undo`"
-    )
+    refusal = "the program calls the operator: answer `proceed`, `retry`, `skip` or `abort`, or use `back` or `undo`"
     assert [answer.error for answer in say("c", "step", "stage", "continue")] == [None, *[refusal] * 3]
 
 

@@ -36,7 +36,8 @@ def view(
 
     Prints the address to open, which contains a secret and works only on this computer.
 
-    Exit code 0: the program has ended, or you left; 1: an error or an emergency has stopped it; 2: bad input.
+    Exit code 0: the program has ended, or you ended the command; 1: an error or an emergency has stopped it; 2: bad
+    input.
     """
     from handeye.cli.job import Job, work
     from handeye.core.variation import WorldSpec

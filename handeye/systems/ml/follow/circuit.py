@@ -21,9 +21,7 @@ ROUND: Final = 4  # left turns minus right turns in a circuit
 NEAR: Final = 1.5 * STEP  # greatest distance from the first touch to the touch that closes a circuit
 IDLE: Final = 40  # a follower is lost after this number of squares without a touch
 ALONE: Final = 19  # statements (eight steps) without any touch; a plate is at most six steps ahead
-NOTHING: Final = (
-    "the wand has touched nothing on its way to the plate: there is no plate, or the wand does not signal"
-)
+NOTHING: Final = "the wand has touched nothing: there is no plate ahead of it, or the wand does not signal"
 EVERYWHERE: Final = (
     "the wand signals wherever it goes: either its switch is stuck, or walls are all around it"
 )

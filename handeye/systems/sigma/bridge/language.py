@@ -14,8 +14,8 @@ from handeye.systems.sigma.bridge.translation import AT, LANGUAGE, translated
 _SAID = {
     "hand-through-table": "the hand would go through the table",
     "hand-through-fixture": "the hand would go through a fixture",
-    "carries-through-table": "what the hand holds would go through the table",
-    "carries-through-fixture": "what the hand holds would go through a fixture",
+    "carries-through-table": "the object in the hand would go through the table",
+    "carries-through-fixture": "the object in the hand would go through a fixture",
     "stop-beyond-arm": "the arm cannot exert the force of this limit",
     "force-beyond-arm": "the arm cannot exert this force",
     "faint-force": "in free motion, joint friction alone can make the arm feel this force",

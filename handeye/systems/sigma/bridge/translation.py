@@ -282,8 +282,8 @@ class _Translation:
         if isinstance(way, Unknown):
             self._refuse(
                 line,
-                "ON ABORT leads to different lines for different axes of this motion, or on different paths to "
-                "this motion",
+                "the line to which ON ABORT leads is different for different axes of this motion, or depends on "
+                "the path to this motion",
             )
             return []
         tested = _Draft(

@@ -121,7 +121,7 @@ _SERVO: Final = (
     "The arm and the hand have executed all commands, because each step waits for the end of its motion."
 )
 _UNSENSED: Final = {
-    "screws_hold": "A test of whether a screw holds would loosen the screw.",
+    "screws_hold": "The arm cannot test whether a screw holds without loosening the screw.",
     "threads_scarred": "The arm does not feel a scar; the referee only warns of one.",
     "floor": "No step looks under the table.",
     "tray": (

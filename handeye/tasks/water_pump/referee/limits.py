@@ -56,8 +56,8 @@ of the scar, because a thread that was cut twice strips sooner.
 """
 SOFT: Final = 0.03
 """Tolerated overlap beyond the clearance of a shank or pin in its hole (mm). Contacts are soft: a shank that was
-pressed on a bore went into it by .02 mm at 4 to 32 N, and by .033 mm at 64 N. A shank that cuts metal goes
-farther.
+pressed against the wall of a bore went into the wall by .02 mm at 4 to 32 N, and by .033 mm at 64 N. A shank that cuts
+metal goes deeper.
 """
 
 PIN_PLACE: Final = 3.0  # mm from its place in the holder: the holder's hole and its bevel
