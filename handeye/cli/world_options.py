@@ -82,8 +82,8 @@ class ErrorOptions:
         return any_task(DEFAULT) if self.task is None else named(self.task)
 
     def of(self, name: str) -> Self:
-        """These options, with the task that a plan or run records instead of their own. The method imports no task
-        module.
+        """A copy of these options for the task called `name`, which a plan or a run records. The method imports no
+        task module.
         """
         return replace(self, task=any_task(name).name)
 
@@ -188,7 +188,7 @@ class WorldOptions:
         return replace(self, errors=replace(self.errors, task=None)) != ANY_WORLD
 
     def of(self, name: str) -> Self:
-        """These options, with the task called `name` instead of their own."""
+        """A copy of these options for the task called `name`."""
         return replace(self, errors=self.errors.of(name))
 
     @property

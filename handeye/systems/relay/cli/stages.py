@@ -29,8 +29,8 @@ def stages(
     stage: Annotated[
         list[str] | None,
         Parameter(
-            help="Name of a stage of the pump’s own program; may be repeated. Default: the stages that several "
-            "languages can do.",
+            help="Name of a stage of the pump’s own program; may be repeated. Default: the stages for which there "
+            "are programs in several languages.",
             consume_multiple=False,
         ),
     ] = None,
