@@ -277,7 +277,8 @@ CODES: Final[dict[str, Code]] = {
         "a WAIT seems to be intended as a delay, but WAIT calls the operator", "PARK\nWAIT 2"
     ),
     "wrist-in-line": _planning(
-        "a straight motion passes a point at which the axes of two joints line up, and the hand cannot keep its angles",
+        "a straight motion passes a point at which the axes of two joints line up, and there the hand cannot keep "
+        "its angles",
         "TRANS AHEAD [14 40 24 180 0 0]\nMOVE AHEAD\nCHANGE [0 0 -1] 4",
     ),
     "wrong-operand": _error("an operand is of the wrong kind", "OPEN T"),
