@@ -37,7 +37,7 @@ def lerobot(
         bool,
         Parameter(
             negative="--no-pictures",
-            help="Include the television pictures, as a video that is compressed with loss.",
+            help="Include the television pictures, as a video with lossy compression.",
         ),
     ] = True,
     view: Annotated[

@@ -1,4 +1,6 @@
-"""Scripts and plans as commands name them: by file, or by the name of an included program."""
+"""Finds the script or plan that an argument of a command names. The argument is a file, or the name of an included
+program.
+"""
 
 from pathlib import Path
 from typing import TYPE_CHECKING, Final

@@ -68,7 +68,7 @@ def write_dataset(
 
     Args:
         places: folders of runs, or folders that contain such folders.
-        pictures: include the television pictures, as a video. The video is compressed with loss.
+        pictures: include the television pictures, as a video with lossy compression.
         view: camera of the scene; its view is rendered for each frame, and included as a further video.
         progress: called before each run, with its number (from 1) and the number of runs.
 

@@ -181,8 +181,8 @@ def hand() -> Iterator[Quantity]:
         group("hand", {"gap_step": Step(STANFORD.hand.gap_max / UNITS["in"].size / 2**SENSE_BITS)}, "in",
             f"One step of the converter of the gap: {SENSE_BITS} bits over the full opening. Data sheet of 1974."),
         group("hand.switch_force", {"plus_y": Normal(0.4), "minus_y": Normal(0.4)}, "oz",
-            "Force at which a finger's switch closes. Our notes on the system of 1973 infer a few ounces, and suggest "
-            "2 oz for a simulation.",
+            "Force at which a finger's switch closes. Our notes on the system of 1973 estimate this force at a few "
+            "ounces, and suggest 2 oz for a simulation.",
             nominal=2.0, least=0.0),
         group("hand.lamp", {axis: Normal(0.03) for axis in "xyz"}, "in",
             "Deviation of the lamp's position in the hand's frame from the drawing that the camera calibration uses.",
