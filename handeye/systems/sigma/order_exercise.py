@@ -29,7 +29,7 @@ class OrderExercise(Exercise):
 
     @property
     def cases(self) -> str:
-        return "every order in which the tasks may run; motions may take any time"
+        return "every order in which the tasks may run; a motion may take any length of time"
 
     @property
     def rules(self) -> tuple[str, ...]:
