@@ -40,7 +40,7 @@ Faults = Annotated[
 @Parameter(name="*", group=WORLD)
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ErrorOptions:
-    """The task of a world, which errors the world has, and how large they are."""
+    """Options that choose the task of a world, its errors, and the sizes of the errors."""
 
     task: TaskWords = None
     level: Annotated[

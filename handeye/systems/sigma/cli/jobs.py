@@ -70,7 +70,7 @@ def handover(
     """Hand four pieces from arm to arm: arm 1 brings the pieces; arm 2 presses in their pins and takes the pieces away.
 
     `plans/handover_pieces.mal` runs on two simulated gantries, in a world with errors. A referee then checks
-    that each piece stands at its last place, within 3 mm and 3 degrees, with its pin protruding by at most .5 mm;
+    that each piece stands at its final place, within 3 mm and 3 degrees, with its pin protruding by at most .5 mm;
     that the program counted the finished pieces correctly; and that the arms never touched each other.
 
     Exit code 0: right; 1: the program stopped before its end, for example at a deadlock or because the arms

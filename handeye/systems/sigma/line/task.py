@@ -72,7 +72,7 @@ class AssemblyLine(JobTask):
                 max(lifts), STANDS, "mm", "greatest height of a piece's foot above the belt"
             ),
             "withdrawn": at_most(
-                max(places), PLACED, "mm", "greatest distance of a piece from its last place"
+                max(places), PLACED, "mm", "greatest distance of a piece from its final place"
             ),
             "pressed": at_most(max(proud), PRESSED, "mm", "greatest height of a pin above its piece"),
             "counted": at_most(
