@@ -129,8 +129,8 @@ def bench_agents(
 ) -> int:
     """Score programs that agents write, in worlds that the agents have not seen; silent failures count twice.
 
-    The score of a task is (accepted - 2 silent) / worlds. Exit code 0: no silent failure; 1: --check found a task that
-    is not right; 3: a silent failure; 2: bad input; 130: interrupted.
+    The score of a task is (accepted - 2 silent) / worlds. Exit code 0: no silent failure; 1: --check found a mistake
+    in a task; 3: a silent failure; 2: bad input; 130: interrupted.
     """
     from handeye.agents.bench_entrant import Entrant
     from handeye.agents.bench_page import PAGE, bench_page

@@ -263,7 +263,7 @@ def worst_trials(
     """Find the failing worlds whose errors are smallest, and the quantities that make the program fail.
 
     The levels are those of `trials rare`, so this command can continue the work in a folder that `trials rare` wrote.
-    In each of the nearest failing worlds, the command then returns the quantities to the middle of their ranges,
+    In each of the nearest failing worlds, the command then sets the quantities back to the middle of their ranges,
     except those whose deviation is needed for the failure.
 
     Exit code 0: no silent failure; 3: in some world, the program reported success but the referee disagreed; 2: bad

@@ -147,7 +147,7 @@ def test_origin_finds_out_whether_a_motor_has_missed_a_command() -> None:
         go_on(ran, 1)
     machine.memory.motors[NUMBERS["X1"]].count -= 1
     go_on(ran)
-    assert ran.fault == "line 30: WRONGCOUNT: X1 has counted 49.95 mm, and was sent to 49.99 mm"
+    assert ran.fault == "line 30: WRONGCOUNT: the count of X1 is 49.95 mm, but X1 was sent to 49.99 mm"
     ran.vm.retry()
     assert go_on(ran).printed == ["0"]
 

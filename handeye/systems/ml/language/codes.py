@@ -30,11 +30,11 @@ CODES: Final[dict[str, Mistake]] = {
         cure="first load a part of the chain of references into a variable",
     ),
     "M07": Mistake(
-        meaning="a statement does not exist", example="10 BRANCH 700\n20 STOP",
+        meaning="the program refers to a statement that does not exist", example="10 BRANCH 700\n20 STOP",
         cure="give the number of a stored statement",
     ),
     "M08": Mistake(
-        meaning="a point does not exist", example="10 GOPOINT 5\n20 STOP",
+        meaning="the program refers to a point that does not exist", example="10 GOPOINT 5\n20 STOP",
         cure="store a POINT statement under this number",
     ),
     "M09": Mistake(

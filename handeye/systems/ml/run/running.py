@@ -378,7 +378,7 @@ class RunningMl(NumberedRun):
                 present=lambda name: (float(self.machine.memory.shared.VR[int(name) - 1]),),
             ),
             "interlock": Settable(
-                noun="interlock (1: it stops the arms)", usage="NAME n", names=INTERLOCKS, units=(1.0,), fewest=1,
+                noun="interlock (1 stops the arms)", usage="NAME n", names=INTERLOCKS, units=(1.0,), fewest=1,
                 present=lambda name: (float(locks[INTERLOCKS.index(name)].now),),
             ),
         }  # fmt: skip

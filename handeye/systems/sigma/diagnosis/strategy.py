@@ -247,7 +247,7 @@ def wrong_force(found: means.Forces) -> tuple[str, str]:
     own = [error for each, _, error in errors if each == component]
     spread = max(own) - min(own)
     why = (
-        "its reading is too large or too small by the same force at every load"
+        "at every load, its reading is wrong by the same force"
         if spread <= _OFFSET_SPREAD_N
         else "its reading does not follow the load"
     )

@@ -216,7 +216,7 @@ class PumpClaims:
         first, second = self.corner(one), self.corner(other)
         limits = Limits(-0.02 * INCH, 0.02 * INCH)
         return Claim(
-            says="the fingers feel the face of the base at the same height at both corner holes of a side, with a "
+            says="the fingers feel that the face of the base is equally high at both corner holes of a side, with a "
             "tolerance of .02 inch",
             where=f"holes {_CORNERS[one] + 1} and {_CORNERS[other] + 1}",
             phases=(

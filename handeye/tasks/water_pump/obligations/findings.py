@@ -98,7 +98,8 @@ def _sensed(screws: int) -> Iterator[Obligation]:
         Obligation(finding="motor", claims=(claims.motor_off(),), rests=_SERVO),
         Obligation(
             finding="rest", claims=(claims.released(),),
-            rests="The program notices a hanging part only if another finding requires a touch of this part.",
+            rests="The program notices that a part hangs from the hand only if it must touch this part for another "
+            "finding.",
         ),
     )  # fmt: skip
 
