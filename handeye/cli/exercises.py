@@ -170,8 +170,8 @@ def _grade(chosen: "Exercise", file: Path, seed: int | None, jobs: int, *, json:
 
 
 def _elsewhere(chosen: "Exercise", first: int) -> "Exercise":
-    """Return the exercise in worlds whose seeds begin with `first`. Raises BadArgument if the exercise has no worlds,
-    or if a seed is not valid.
+    """Return the exercise with other worlds, whose smallest seed is `first`. Raises BadArgument if the exercise has no
+    worlds, or if a seed is not valid.
     """
     from handeye.core.variation import checked_seed
 

@@ -152,7 +152,7 @@ WORDS: list[tuple[c.Cause, str]] = [
     ),
     (
         s.GapStill(gap=1.0 * INCH, driven=0.7 * INCH),
-        "the gap still reads 1.00 in; the fingers were driven together by 0.70 in",
+        "the gap still reads 1.00 in; the fingers were driven 0.70 in closer together",
     ),
     (
         s.ForceInAir(force=(0.0, -1.0 * OUNCE_FORCE, 70.0 * OUNCE_FORCE), limit=25 * OUNCE_FORCE, load=0.0),

@@ -77,7 +77,7 @@ def doubt_sentence(cause: s.SenseCause) -> str:
         case s.GapAstray():
             return f"the gap reads {inches(cause.gap)}; the fingers were driven to {inches(cause.goal)}"
         case s.GapStill():
-            driven = f"the fingers were driven together by {inches(cause.driven)}"
+            driven = f"the fingers were driven {inches(cause.driven)} closer together"
             return f"the gap still reads {inches(cause.gap)}; {driven}"
         case s.ForceInAir():
             return _in_air(cause)
