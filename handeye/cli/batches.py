@@ -221,8 +221,9 @@ def compare_trials(
     error of the world, changes the success rate.
 
     All batches must be of the same kind. Each comparison counts only the trials that are in both of its batches. `p`
-    is the p-value of McNemar's exact test: if neither batch is better, the probability that the pairs with different
-    outcomes divide at least as unequally as they did.
+    is the p-value of McNemar's exact test. The test looks at the trials that succeeded in only one of the two batches.
+    If neither batch is better, `p` is the probability that chance divides these trials at least as unequally between
+    the two batches as they are divided here.
     """
     from handeye.trials.comparing import paired
     from handeye.trials.folder import read_batch
