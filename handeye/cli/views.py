@@ -53,7 +53,7 @@ def view(
     out: Out = None,
     overwrite: Overwrite = False,
 ) -> int:
-    """Step a run or teach positions in a browser, which shows the live cell. Or show a recorded run.
+    """Step through a run or teach positions in a browser, which shows the live cell. Or show a recorded run.
 
     Prints the address to open, which contains a secret and works on this computer only. Several pages can show the
     run, but only one page controls the run; the other pages neither change nor slow the run. The exit codes are those

@@ -168,8 +168,8 @@ def _friction() -> Iterator[Quantity]:
 def hand() -> Iterator[Quantity]:
     return chain(
         group("hand", {"gap_offset": Normal(0.01)}, "in", "Offset of the gap reading.",
-            unsourced="the offset is the wear of the finger pads since the gap was last set, and this wear was never "
-                f"measured. {DOUBLED}"),
+            unsourced="the offset is due to the wear of the finger pads since the gap was last set, and this wear "
+            f"was never measured. {DOUBLED}"),
         group("hand", {"gap_scale": Normal(0.5)}, "%",
             "Scale error of the gap reading. The size of the error is between the linearity of wire-wound "
             "potentiometers, .15 to .25 %, and the linearity of conductive plastic, 1 to 2 %: data sheets of "

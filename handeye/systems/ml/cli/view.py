@@ -27,7 +27,7 @@ def view(
     out: Out = None,
     overwrite: Overwrite = False,
 ) -> int:
-    """Step a run in the browser, and see all tables of its machine while the run goes on.
+    """Step through a run in the browser, and see all tables of its machine while the run goes on.
 
     In the tables, each word that changed in the cycle is highlighted. You can look back at any earlier cycle. A value
     that you write into a word takes effect in the next cycle, even while the arm moves: `MT 3 4` is the goal of motor
