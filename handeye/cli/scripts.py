@@ -60,8 +60,8 @@ def check(
         bool,
         Parameter(
             group=PROOF,
-            help="Also prove, for each finding of the task's referee, that the program would notice if the finding "
-            "did not hold, whatever path the program takes to its end. FILE may also be a plan.",
+            help="Also prove, for each finding of the task's referee: on every path to its end, the program would "
+            "notice if the finding did not hold. FILE may also be a plan.",
         ),
     ] = False,
     proof: ProofOptions | None = None,

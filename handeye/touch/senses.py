@@ -27,11 +27,10 @@ one step of the converter (.001 in), because of rounding, plus five standard dev
 reading at the high level).
 """
 FREE_FORCE: Final = 45 * OUNCE_FORCE
-"""Greatest force sensed in free air: 12.5 N.
-
-The errors of link masses, mass centres, drive gains and joint friction look like a force on the hand, upwards or
-downwards. We calculated this force for 15 places on the table: it is at most 6.1 N in 400 nominal worlds, and at most
-8.9 N in worlds of the high level. At the high level, the weight of the base beyond its declared load adds 2 N.
+"""Greatest force that the arm may sense in free air: 12.5 N. With more force, the program calls the operator. The
+errors of link masses, mass centres, drive gains and joint friction look like a force on the hand, upwards or
+downwards. We calculated this apparent force for 15 places on the table: it is at most 6.1 N in 400 nominal worlds, and
+at most 8.9 N in worlds of the high level. At the high level, the weight of the base beyond its declared load adds 2 N.
 """
 SWITCH_FORCE: Final = 10 * OUNCE_FORCE
 """Force (N) with which the fingers press after centring. It closes both switches.

@@ -149,7 +149,7 @@ def _microcomputer(number: int, heard: Mapping[int, _Heard], scanning: Container
     fault = ""
     if one.silent:
         taken = [other for other in heard if takes(number, other)]
-        spare = f"it answers to the number of {name_of(taken[0])}" if taken else ""
+        spare = f"it answers to {name_of(taken[0])}'s number instead of its own" if taken else ""
         fault = spare or "it is dead: it does not answer"
     elif one.right or any(takes(stranger, number) for stranger in heard):
         pass
