@@ -45,7 +45,7 @@ def in_world_of(path: Path, plan: Plan, *, judged: bool) -> Setup:
 
 
 def _events(path: Path) -> tuple[AnyEvent, ...]:
-    """Return the events of a run. Reads the event list if the run has one, because the list is shorter than the trace."""
+    """Return the events of a run. Reads the run's event list if there is one: the list is shorter than the trace."""
     file = path / EVENTS if (path / EVENTS).is_file() else trace_file(path)
     if file.suffix == ".jsonl":
         return tuple(read_events(file, growing=True))

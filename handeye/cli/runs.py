@@ -106,8 +106,8 @@ def assemble(
     check_kept(no_keep, out)
     if report and no_keep:
         raise BadArgument(
-            "--report writes a page into the folder of the run, but with --no-keep "
-            "there is no folder; leave out one of them"
+            "--report writes a page into the folder of the run, but with --no-keep there is no folder; leave out "
+            "one of these two options"
         )
     world.check()
     started = time.process_time()

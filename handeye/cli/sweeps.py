@@ -1,5 +1,5 @@
-"""Parts common to all commands that run a sweep, a series of trials: options, progress, the folder, and the summary
-at the end.
+"""Parts common to all commands that run a sweep: options, progress, the folder, and the summary at the end. A sweep is
+a series of trials.
 """
 
 from collections.abc import Callable, Mapping, Sequence

@@ -23,8 +23,8 @@ the goal. The value is a placeholder.
 GAP_NOISE: Final = 0.02 * INCH  # m; twenty times the sensor noise
 SHIFT_NOISE: Final = 0.006 * INCH
 """Greatest change (m) of the gap reading between two servo periods while the fingers stand still. The value allows for
-one step of the converter (.001 in), because of rounding, plus five standard deviations of the noise (.0006 in per
-reading at the high level).
+rounding and for noise. The converter rounds to steps of .001 in. Five standard deviations of the noise are added
+(.0006 in per reading at the high level).
 """
 FREE_FORCE: Final = 45 * OUNCE_FORCE
 """Greatest force that the arm may sense in free air: 12.5 N. With more force, the program calls the operator. The
