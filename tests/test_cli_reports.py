@@ -144,8 +144,7 @@ def test_a_report_of_an_assembly_needs_a_folder(command: Command) -> None:
     code, _, err = command("assemble", "--report", "--no-keep")
     sentence = (
         "handeye: --report writes a page into the folder of the run, but with --no-keep there is no folder; "
-        "leave out one of these two options
-\n"
+        "leave out one of these two options\n"
     )
     assert (code, err) == (2, sentence)
 
