@@ -90,8 +90,8 @@ class PipedLines:
         return line
 
     def _read(self, file: int) -> None:
-        """Read lines without the buffer of `sys.stdin`, because an interpreter that exits would wait for the
-        buffer's lock.
+        """Read lines without the buffer of `sys.stdin`. If this thread held the lock of the buffer, Python would wait
+        for the lock at exit.
         """
         rest = b""
         while more := os.read(file, 65536):
