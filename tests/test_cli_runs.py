@@ -642,8 +642,9 @@ def test_a_run_comes_out_the_same_again(command: Command, folder: Path) -> None:
         (Repetition(rounded="A"), 0, "it repeats except for rounding, on another kind of processor: the "
             "same"),
         (Repetition(parts="B"), 1, "it does not repeat, on another kind of processor: B"),
-        (Repetition(parts="B", rounded="A"), 1, "numbers differ only by rounding, as they do between kinds of "
-            "processors; the first difference: A"),
+        (Repetition(parts="B", rounded="A"), 1, (
+            "numbers differ only by rounding, which depends on the kind of processor; the first difference: A"
+        )),
     ],
 )  # fmt: skip
 def test_verify_has_three_answers_and_names_the_processors(

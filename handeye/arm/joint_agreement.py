@@ -33,8 +33,8 @@ one servo period. The tolerance is one step for rounding, plus five standard dev
 reading, .4 at the high level).
 """
 STRUCK: Final = 3.0
-"""If a joint is struck, its path in one servo period is uncertain by half the change of its rate, times the period,
-times this factor. The factor is our choice.
+"""Factor for the uncertainty of a joint's path if the joint is struck. In one servo period, this uncertainty is the
+product of the factor, the change of the joint's rate and half the period. The factor is our choice.
 """
 
 

@@ -91,8 +91,8 @@ def bench_agents(
     solutions: Annotated[
         Path | None,
         Parameter(
-            help="Instead of --command: a folder that this command wrote earlier, with --out. The programs in this "
-            "folder are judged again."
+            help="Instead of --command: a folder that an earlier `handeye bench agents` wrote with --out. The "
+            "programs in this folder are judged again."
         ),
     ] = None,
     feedback: Annotated[

@@ -91,8 +91,8 @@ class _Command(CommandSpec):
 
 
 def restore_docstring(command: object) -> None:
-    """Restore the docstring of a command from its source, because the docstring is the help and Python -OO drops
-    it.
+    """Restore the docstring of a command from its source, because this docstring is the text for --help, and Python
+    -OO drops docstrings.
     """
     if isinstance(command, App):
         for part in (command.default_command, *command._commands.values()):

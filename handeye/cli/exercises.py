@@ -28,7 +28,7 @@ def exercise(
     start: Annotated[
         bool,
         Parameter(
-            help="Write the program from which you start, and its taught positions, into the current folder."
+            help="Write the exercise's starting program and its taught positions into the current folder."
         ),
     ] = False,
     overwrite: Overwrite = False,

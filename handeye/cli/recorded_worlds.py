@@ -53,7 +53,7 @@ def _events(path: Path) -> tuple[AnyEvent, ...]:
 
 
 def _check_drawing(path: Path, begun: RunStarted) -> None:
-    """Raises InvalidInput if the seed of the run gives a different world in this version."""
+    """Raises InvalidInput if, in this version of handeye, the seed of the run does not give the recorded world."""
     world = begun.world
     if world.drawing != DRAWING:
         raise Refused(

@@ -131,7 +131,7 @@ def verify(run: RunOrTrace = None, /, *, task: TaskWords = None) -> int:
         say(f"{file} does not repeat{elsewhere}: {found.parts}")
         if found.rounded is not None:
             say(
-                "before that, numbers differ only by rounding, as they do between kinds of processors; the first "
+                "before that, numbers differ only by rounding, which depends on the kind of processor; the first "
                 f"difference: {found.rounded}"
             )
         return 1

@@ -246,7 +246,7 @@ def test_the_hand_over_leaves_the_central_computer_idle_for_most_of_the_time() -
         ("SPEED Z1, 0 - 4", "a speed limit must be between 0 and 2400 mm/s, not -4"),
         ("MOVE X1 BY 5 SLOW 1 / 2", "a constant speed must be between 2 and 254 mm/s, not 0.5"),
         ("ACTUATE HAND1 = 1 / 2", "HAND1 takes a whole number from 0 to 65535, not 0.5"),
-        ("GOSUB 10", "1000 GOSUBs are active: a subroutine does not RETURN"),
+        ("GOSUB 10", "1000 GOSUBs are active: a subroutine never reaches its RETURN"),
         ("FOR I = 1 TO 2 STEP 0", "a FOR with a STEP of 0 never ends"),
     ],
 )  # fmt: skip

@@ -81,8 +81,8 @@ class Felt(Record, frozen=True, kw_only=True):
         """The end of the run in words."""
         felt = (
             f"{counted(len(self.touches), 'touch')}, {counted(self.left, 'left turn')}, "
-            f"{counted(self.right, 'right turn')}, {counted(self.idle, 'square')} of one step around which the wand "
-            "touched nothing"
+            f"{counted(self.right, 'right turn')}, {counted(self.idle, 'square')} (sides of one step) without a "
+            "touch"
         )
         if self.closed:
             return f"the circuit is closed: {felt}"

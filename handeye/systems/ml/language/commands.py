@@ -97,7 +97,7 @@ _ROWS: Final[dict[Category, tuple[tuple[str, str, str, str], ...]]] = {
             "Go to n1 if the overflow indicator is on. If it is off, go to n2; without n2, go to the next "
             "statement. The statement does not change the indicator."
         ), "40 BROVFL 100 200"),
-        ("DELAY", "x", "Wait x hundredths of a second. The sensors stay guarded.", "50 DELAY 100"),
+        ("DELAY", "x", "Wait x hundredths of a second. Guards on sensors stay active.", "50 DELAY 100"),
         ("GOSUB", "n", "Go to a subroutine. A subroutine cannot call another subroutine with GOSUB.", "60 GOSUB 900"),
         ("IF", "x n1 n2 n3", "Go to n1 if x is less than zero, to n2 if it is zero, to n3 if it is greater.",
          "70 IF &1 100 200 300"),

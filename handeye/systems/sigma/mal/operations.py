@@ -148,7 +148,7 @@ class Operations(BusOperations):
 
     def _do_call(self, _: str, task: TaskMemory, instruction: Instruction) -> None:
         if len(task.returns) >= DEEPEST_GOSUB:
-            raise Trap(f"{counted(DEEPEST_GOSUB, 'GOSUB')} are active: a subroutine does not RETURN")
+            raise Trap(f"{counted(DEEPEST_GOSUB, 'GOSUB')} are active: a subroutine never reaches its RETURN")
         task.returns.append(self.behind(task.pc))
         self._do_go("", task, instruction)
 
