@@ -99,9 +99,9 @@ _MEANINGS: Final = {
     "SKIPE": "skip the next instruction if the last action raised this error; the test clears the error",
     "SKIPN": "skip the next instruction if the last action did not raise this error; the test clears the error",
     "SEARCH": (
-        "start a search of places that are this step (inches) apart, on a square spiral with three steps to each "
-        "side; with ALONG, the places are on a line in this direction (degrees from the x axis of the table), with "
-        "four steps to each side; STEPS sets a different number of steps"
+        "start a search of places on a square spiral, one step (inches) apart, with three steps to each side; with "
+        "ALONG, the places are on a line in the given direction (degrees from the x axis of the table), with four "
+        "steps to each side; STEPS sets a different number of steps"
     ),
     "AOJ": "select the next place of the search and jump back to the label; error 6 if no place is left",
     "ASSIGN": "set a counter",
