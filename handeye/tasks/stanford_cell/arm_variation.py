@@ -130,8 +130,8 @@ def arm() -> Iterator[Quantity]:
         group("arm.mass_centre", numbered(Uniform, *[5.0] * 6), "%",
             "Distance between a link's centre of mass and its joint: relative deviation of the true distance from "
             "the controller's value.", least=-90.0,
-            unsourced="the centres of mass were also published without a tolerance. To correct the errors of these "
-            f"centres, the arm weighs its links. {DOUBLED}"),
+            unsourced="the centres of mass, like the masses, were published without a tolerance. To correct the "
+            f"errors of these centres, the arm weighs its links. {DOUBLED}"),
         group("arm", {"hand_length": Uniform(0.02)}, "in",
             "True length of the hand minus the controller's value.",
             unsourced="no drawing gives the tolerance. A length like this is measured with a steel rule, which "

@@ -123,7 +123,9 @@ SYMBOLIC: Final[dict[str, Mistake]] = {
         cure="define the name with EQU or VAR, or as a label",
     ),
 }  # fmt: skip
-"""Mistakes that only a symbolic program can have. Such a program can also have the mistakes of ML."""
+"""Mistakes that only a symbolic program can have. A symbolic program can also have each mistake that a program in ML
+can have.
+"""
 
 mistake: Final = Mistakes(CODES, SYMBOLIC)
 """Makes a diagnostic of ML."""

@@ -144,7 +144,8 @@ class WiredBus(MicrobusPort):
         memory = self._memory
         if not self.free:
             raise Refused(
-                "the bus still carries a command or an answer; wait until it has ended before sending the next command"
+                "the bus still carries a command or an answer; wait until the bus is free before sending the next "
+                "command"
             )
         sending = Sending(
             start=self.now,
