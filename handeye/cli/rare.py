@@ -250,8 +250,8 @@ def worst_trials(
         WholeNumber,
         Parameter(
             help=(
-                "Number of searches for failing worlds that are nearer still. Each search starts from one of the "
-                "nearest failing worlds found so far."
+                "Number of further searches, for failing worlds with even smaller errors. Each search starts from "
+                "one of the nearest failing worlds found so far."
             )
         ),
     ] = 5,

@@ -21,7 +21,8 @@ def view(
     seed: Annotated[WholeNumber, Parameter(help="Seed of the world of the simulated arm.")] = 0,
     variant: Annotated[str, Parameter(help="Variant of the job, such as the outline for `follow`.")] = "",
     sense: Annotated[
-        list[str] | None, Parameter(help="What a sensor or interlock reads, as in `handeye ml run`.")
+        list[str] | None,
+        Parameter(help="What a sensor or interlock reads. The form is that of `handeye ml run`."),
     ] = None,
     port: Annotated[WholeNumber, Parameter(help="Port on this computer; 0 for any free port.")] = 0,
     out: Out = None,

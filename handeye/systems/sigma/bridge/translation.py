@@ -200,7 +200,7 @@ def _force_tests(lines: Sequence[Line]) -> tuple[dict[int, ForceTest], list[Diag
                 _refused(line, "an IF can only compare ABS(FORCE(axis)) with a number, and go to a line")
             )
         elif before is None or moved != [test.axis] or line.number in targets:
-            told = "a test of FORCE must directly follow a MOVE of only this axis, and no line may jump to it"
+            told = "a test of FORCE must directly follow a MOVE of only this axis, and no line may jump to the test"
             wrong.append(_refused(line, told))
         else:
             tests[before.number] = test
@@ -264,7 +264,7 @@ class _Translation:
         if test is not None and least is not None and test.limit > least:
             self._refuse(
                 line,
-                f"its LIMIT of {least:g} N stops the motion before the force reaches the {test.limit:g} N of the test",
+                f"the LIMIT of {least:g} N stops the motion before the force reaches the {test.limit:g} N of the test",
             )
             return []
         guard = least if test is None else test.limit
