@@ -1,4 +1,4 @@
-"""Makes one sentence of each mistake in a command line, from what the parser reports."""
+"""Describes each mistake in a command line in one sentence, made from the report of the parser."""
 
 from collections.abc import Iterable
 from typing import Final, Literal, get_args, get_origin
