@@ -135,7 +135,7 @@ def test_from_and_to_bound_a_run(command: Command, planned: Planned) -> None:
         (("--stage", ""), "there is no stage"),
         (
             ("--from", "3", "--to", "1"),
-            "the run would begin with “feel”, which comes after its last stage, “to and fro”",
+            "the run would begin with the stage “feel” and end with an earlier stage, “to and fro”",
         ),
         (("--break", "error:99"), "99"),
         (("--on-stop", "sleep"), "sleep"),
@@ -230,7 +230,7 @@ def test_a_stage_that_has_ended_is_no_place_to_stop_any_more(command: Command, p
     code, _, err = command("resume", "it", "--to", "1")
     assert (
         code,
-        "the run would begin with “feel”, which comes after its last stage, “to and fro”" in err,
+        "the run would begin with the stage “feel” and end with an earlier stage, “to and fro”" in err,
     ) == (2, True)
 
 

@@ -39,7 +39,9 @@ def check_order(listing: "Listing", first: str | None, last: str | None) -> None
     stages = listing.stages
     begin, end = stages[stage_number(first, listing)], stages[stage_number(last, listing)]
     if stages.index(end) < stages.index(begin):
-        raise BadArgument(f"the run would begin with “{begin}”, which comes after its last stage, “{end}”")
+        raise BadArgument(
+            f"the run would begin with the stage “{begin}” and end with an earlier stage, “{end}”"
+        )
 
 
 def check_ahead(start: "Checkpoint", stops: list["AnyStop"], breaks: list[str]) -> None:

@@ -32,8 +32,8 @@ def view(
 
     In the tables, each word that changed in the cycle is highlighted. You can look back at any earlier cycle. A value
     that you write into a word takes effect in the next cycle, even while the arm moves: `MT 3 4` is the goal of motor
-    3, `MT 2 8` the speed of motor 2, and `ST 7 9` a limit of sensor 7. Each written word is an event of the run, so a
-    repetition of a recorded run writes the word again.
+    3, `MT 2 8` the speed of motor 2, and `ST 7 9` a limit of sensor 7. The run records each word that you write, so a
+    repetition of the run writes the word again.
 
     Prints the address to open, which contains a secret and works only on this computer.
 
