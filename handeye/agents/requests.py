@@ -27,8 +27,8 @@ TaughtPositions = Annotated[
     Meta(
         max_length=500_000,
         description="Taught positions (inches, degrees). A value with a line break is the text of a TOML file. A "
-        "value without one is the name of a file in the folder, or the name of an included program whose positions "
-        "are used. Default: the .toml file next to the script, if there is one.",
+        "value without a line break is the name of a file in the folder, or the name of an included program whose "
+        "positions are used. Default: the .toml file next to the script, if there is one.",
     ),
 ]
 TaskName = Annotated[

@@ -52,7 +52,9 @@ def typed_lines(
 
 
 def typed_already() -> str | None:
-    """A line typed at the terminal before the prompt; None if there is none, or if this cannot be determined."""
+    """A line typed at the terminal before the prompt; None if no line was typed, or if the terminal does not show
+    whether one was.
+    """
     if sys.platform == "win32":
         return None
     if not select.select([sys.stdin], [], [], 0)[0]:

@@ -210,7 +210,9 @@ class WorldOptions:
             replace(self, errors=replace(self.errors, without=None))._spec_of(self.file)
 
     def _spec_of(self, path: Path) -> WorldSpec:
-        """The world in a file; raises InvalidInput if it does not fit the task, or if other options choose a world."""
+        """The world in a file; raises InvalidInput if this world does not fit the task, or if other options choose a
+        world.
+        """
         given, errors = read_world(path), self.errors
         if self.seed is not None or replace(errors, task=None) != ErrorOptions():
             raise BadArgument(

@@ -30,8 +30,8 @@ class Course:
     spin: Array = field(default_factory=lambda: np.zeros(3))
     """1 for each axis of W about which the hand yields to moment, and 0 for the others, shape (3,)."""
     friction: Array = field(default_factory=lambda: np.zeros(6))
-    """Joint friction that is sensed along (N) and about (N m) each axis of W, shape (6,). This friction is the dead
-    band of the compliance.
+    """Effect of the joint friction on the sensed wrench, shape (6,): first the force (N) along each axis of W, then
+    the moment (N m) about each axis. The compliance does not react to smaller forces and moments.
     """
 
     def patience(self, pressing: int, period: float) -> int:

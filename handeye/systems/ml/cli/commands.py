@@ -1,4 +1,4 @@
-"""The commands of MOS and ML: run and check a program, assemble a symbolic one, and open the terminal of 1975."""
+"""The commands of MOS and ML: run and check a program, assemble a symbolic program, and open the terminal of 1975."""
 
 from collections.abc import Callable
 from functools import partial

@@ -71,7 +71,10 @@ class Felt(Record, frozen=True, kw_only=True):
         if self.turns <= -2 * ROUND:
             return EVERYWHERE
         if self.missed >= ROUND * IDLE:
-            return f"the wand has gone around {counted(self.missed // ROUND, 'square')} of one step and touched nothing"
+            return (
+                f"the wand has gone around {counted(self.missed // ROUND, 'square')} with sides of one step and "
+                "touched nothing"
+            )
         if self.statements >= LONGEST:
             return f"the circuit is still open after {counted(self.statements, 'statement')}"
         return ""
