@@ -1,4 +1,4 @@
-"""Commands of the benches: the table of stage times next to the times of 1973, and insertion."""
+"""Commands of the benches. One compares the times of the stages with those of 1973, the other inserts pins."""
 
 import time
 from typing import TYPE_CHECKING, Annotated, Final, Literal

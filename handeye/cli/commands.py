@@ -83,7 +83,7 @@ sentence of the command's docstring; a group of commands has no function. The mo
 class _Command(CommandSpec):
     def resolve(self, parent_app: App) -> App:
         """Import the command. The docstring of the command is its help. A list of commands shows the sentence in the
-        table `COMMANDS` instead. So the list does not have to import the commands.
+        table `COMMANDS` instead of the docstring, so the commands need not be imported for the list.
         """
         self.help = None
         restore_docstring(loaded(self.import_path, "the command at "))

@@ -123,8 +123,8 @@ def _chosen(names: Sequence[str] | None, languages: Sequence[str] | None) -> "li
 
 
 def _careful(legs: "Iterable[StageLeg]") -> "StageLeg":
-    """Return the leg in which the careful program does the last stage that is needed. This is the last stage of `legs`
-    or, if it is later, the last stage that several languages can do.
+    """Return a leg of the careful program. Its stage is the last stage of `legs`, or the last stage that several
+    languages can do, whichever is later.
     """
     from handeye.systems.relay.stages.languages import shared, stage_legs, stages
 

@@ -79,9 +79,9 @@ ONCE: Final = {
     NOTHING_HELD: (NOT_WHERE_SEEN, NOT_LIFTED, NO_DRIVER, NO_TOP),
     SEARCH_EXHAUSTED: (PIN_IN_NO_HOLE, ON_PINS, SCREW_IN_NO_HOLE, NOT_WHERE_SEEN, NO_BASE),
 }
-"""Errors that name the same fault as a call to the operator. For each error, the calls that are equivalent to it: the
-careful program names the fault with one of these calls, and a program that tries every step only once, like the
-program of 1973, reports the fault with the error.
+"""For each error, the calls to the operator that have the same meaning. If there is a fault, the careful program calls
+the operator with one of these calls. A program that tries every step only once, like the program of 1973, ends with
+the error instead.
 """
 
 STIFF_ROTOR: Final = "THE ROTOR IS HARD TO TURN, OR A JOINT OF THE ARM IS"
