@@ -98,9 +98,10 @@ def bench_agents(
     feedback: Annotated[
         Literal["verdict", "errors", "trace"] | None,
         Parameter(
-            help="What the entrant learns between two rounds about its program in the public worlds. verdict: the "
-            "verdict in each world; errors: also the errors, and what the referee measured in the worlds in which "
-            "it accepts the program; trace: also what each step did. Default: verdict; with --try: errors."
+            help="Feedback that the entrant gets between two rounds, from the runs of its program in the public "
+            "worlds. verdict: the verdict in each world; errors: also the errors, and what the referee measured in "
+            "the worlds in which it accepts the program; trace: also what each step did. Default: verdict; with "
+            "--try: errors."
         ),
     ] = None,
     rounds: Annotated[

@@ -206,7 +206,7 @@ def run(
         setup = Setup(plan=plan, world=spec, camera=camera, judged=judge, without=spared)
     elif wanted.chosen or fault or camera != "auto":
         others = "--seed, --world, --level, --without, --set, --scale, --fault and --camera"
-        raise BadArgument(f"{world_of} brings its own world; {others} cannot be given with --world-of")
+        raise BadArgument(f"{world_of} has its own world; {others} cannot be given with --world-of")
     else:
         setup = in_world_of(world_of, plan, judged=judge)
     start = Checkpoint(setup=setup)

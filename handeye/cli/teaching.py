@@ -67,8 +67,8 @@ class CellOptions:
 
         if self.first is not None and (self.world.chosen or self.fault):
             raise BadArgument(
-                f"{self.first} brings its own world; --seed, --level, --without, --set, --scale and --fault cannot "
-                "be given with --from"
+                f"{self.first} has its own world; --seed, --level, --without, --set, --scale and --fault cannot be "
+                "given with --from"
             )
         if self.first is not None:
             return Workplace.at(read_checkpoint(self.first), taught, panic, observers)

@@ -68,7 +68,7 @@ def view(
     from handeye.view.server import Server
 
     if demo and file is not None:
-        raise BadArgument("--demo brings its own program; give either a plan or --demo")
+        raise BadArgument("--demo has its own program; give either a plan or --demo")
     if teach is not None:
         if demo or file is not None or out is not None or overwrite:
             raise BadArgument("--teach runs no plan and saves no run; leave out the plan, --demo and --out")

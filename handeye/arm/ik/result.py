@@ -40,9 +40,9 @@ class IKResult:
 SLACK: Final = 1e-9  # round-off allowed beyond a joint limit, in rad or m
 WRITTEN: Final = (0.0025 * INCH, 0.0125 * DEGREE)
 """Greatest distance (m) and turn (rad) by which a pose may be off because the pose is written with few digits.
-Distance and turn are combined as the root of the sum of squares. Errors of .0005 in and of .005 degrees in each
-coordinate give at most .96 of the limit. The wrist is 10 in behind the finger tips. The greatest turn moves the wrist
-by less than the greatest distance.
+Distance and turn are combined as the root of the sum of squares. If each coordinate is off by .0005 inch or .005
+degrees, the combination is at most .96 of the limit. The wrist is 10 in behind the finger tips. The greatest turn
+moves the wrist by less than the greatest distance.
 """
 
 

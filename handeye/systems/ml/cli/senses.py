@@ -1,4 +1,4 @@
-"""Reads the values of sensors and interlocks, for a run with perfect motors, from the command line."""
+"""Reads the option --sense: values that the user gives for sensors and interlocks in a run with perfect motors."""
 
 import re
 from typing import Final
