@@ -28,7 +28,7 @@ def faults(plan: Plan) -> Iterator[str]:
     if not program.steps:
         yield "it has no steps"
     if "" in program.required:
-        yield "it requires a file without a name"
+        yield "it requires a file but gives no name for this file"
     if len(set(program.stages)) < len(program.stages):
         yield "two of its stages have the same name"
     if not 0 < plan.speed <= 1:
