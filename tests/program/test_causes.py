@@ -139,7 +139,7 @@ WORDS: list[tuple[c.Cause, str]] = [
     ),
     (
         s.DrivesUnlike(joints=(ARM.joints[1],), factors=(1.3,)),
-        "the weights of the links, as the drives feel them, have changed: a drive gives more or less torque than "
+        "the drives feel other weights of the links than before: either a drive gives more or less torque than "
         "commanded (the drive of the wrist gives 1.30 times as much), or the arm no longer stands upright",
     ),
     (

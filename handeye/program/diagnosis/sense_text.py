@@ -48,7 +48,7 @@ def doubt_sentence(cause: s.SenseCause) -> str:
                 f"the drive of the {joint.name} gives {factor:.2f} times as much" for joint, factor in named
             )
             return (
-                "the weights of the links, as the drives feel them, have changed: a drive gives more or less torque "
+                "the drives feel other weights of the links than before: either a drive gives more or less torque "
                 f"than commanded ({gives}), or the arm no longer stands upright"
             )
         case s.CurrentUnlike():
