@@ -79,7 +79,8 @@ RACK_PLACE: Final = 3.0  # mm from its place in the rack: guides and their bevel
 ROTOR_TORQUE: Final = 0.1
 """Greatest torque (N m) to turn the rotor all the way round, in both directions: twice the friction of the rotor,
 which is .05 N m in every world. Inertia and bearing add .01 N m at the speed of the referee's turn. A rotor that needs
-.35 N m binds, although the check in our notes on the system of 1973, 40 oz at the crank, accepts this torque.
+.35 N m binds. Our notes on the system of 1973 describe a weaker check: it pushes the crank with 40 oz, and so accepts
+a rotor that needs .35 N m.
 """
 
 ROTOR_PLACE: Final = 0.1
