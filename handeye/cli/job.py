@@ -284,7 +284,7 @@ class _Work:
 
     @contextmanager
     def _waiting(self) -> Iterator[None]:
-        """While the context is open, the user is asked for a line: the progress bar is hidden, and Ctrl-C
+        """A context in which the user is asked for a line. In this context, the progress bar is hidden, and Ctrl-C
         interrupts as usual.
         """
         with self.panic.aside(), self.progress.aside():
