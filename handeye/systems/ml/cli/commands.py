@@ -63,9 +63,9 @@ def run(
     sense: Annotated[
         list[str] | None,
         Parameter(
-            help="What a sensor or an interlock reads. `8=1200`: sensor 8 reads 1200. `panic=1`: the panic button is "
-            "pressed. `5=500@3:2750`: sensor 5 reads 500 while motor 3 is at 2750 or farther from 0. `door=1@.5s`: the "
-            "door is open from .5 s on. Give --sense once for each reading."
+            help="What a sensor or an interlock reads. `8=1200`: sensor 8 reads 1200. `panic=1`: the panic button "
+            "is pressed. `5=500@3:2750`: sensor 5 reads 500 while motor 3 is at 2750 or farther away from 0. "
+            "`door=1@.5s`: the door is open from .5 s on. Give --sense once for each reading."
         ),
     ] = None,
     options: RunOptions = USUAL_RUN,

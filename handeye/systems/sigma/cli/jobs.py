@@ -46,7 +46,7 @@ def chess(
     errors: OwnErrorOptions = ANY_OWN_ERRORS,
     options: FaultyJobOptions = ANY_FAULTY_RUN,
 ) -> int:
-    """Find chess pieces along three lines, measure their heights with a light beam, and sort them: the paper's example.
+    """Find chess pieces along three lines, measure their heights with a light beam, and sort them, as in the paper.
 
     `plans/chess.mal` runs on two simulated gantries, in a world with errors. A referee then checks that each
     piece stands on the line for its height, within 5 mm and 3 degrees, and that each measured height is right
