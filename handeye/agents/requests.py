@@ -149,7 +149,7 @@ class Advance(Request, frozen=True, kw_only=True):
     ) = None
     answer: Annotated[
         Literal["retry", "proceed", "skip"] | None,
-        Meta(description="The answer to the program's call to the operator, before the run continues."),
+        Meta(description="Answer this to the program's call to the operator, and then continue the run."),
     ] = None
 
 

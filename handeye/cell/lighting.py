@@ -14,8 +14,8 @@ LAMP: Final = "studio_lamp"
 """Numeric field of a scene that gives the place of the lamp for photographs, in W (m)."""
 CUTOFF: Final = 75.0  # half of the angle of the lamp's cone, degrees
 SHADOWED: Final = 0.5
-"""Part of the cone in which bodies cast shadows, as a fraction of the cone's angle. A larger part would make the
-shadows coarser.
+"""Angle of the inner cone, in which bodies cast shadows, as a fraction of the angle of the lamp's cone. A larger inner
+cone would make the shadows coarser.
 """
 SKY_SHADOWED: Final = (
     1.5  # radius of the region in which the sky casts shadows, divided by the size of the scene

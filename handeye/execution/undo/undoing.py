@@ -48,8 +48,8 @@ SUPPORT_SHARE: Final = 0.5
 hand took the screw.
 """
 STRAIGHTER: Final = 2 * 1.1e-3
-"""Distance (m) by which the gap may change because a carried object straightens between the fingers. Our choice: twice
-the largest measured value.
+"""Distance (m) by which the gap may change because a carried object turns until it lies flat against the fingers. Our
+choice: twice the largest measured value.
 """
 SAME_JOINTS: Final = 1e-4  # rad or m within which an arm is at a loop's entry
 
