@@ -58,8 +58,8 @@ class Job(Record, frozen=True, kw_only=True):
     """The faults that can be planted at the start. The seed determines which of them is planted, and its size."""
     sizes: tuple[float, float] = (0.0, 0.0)  # least and greatest size of a planted fault, in the fault's unit
     steps: Mapping[str, tuple[str, ...]] = msgspec.field(default_factory=dict)
-    """Steps of the work, in their order. The key is the name of a step. If the step is done, certain findings hold;
-    the value gives the beginning of each finding's name.
+    """Steps of the work, in their order. A key is the name of a step. Its value contains the beginnings of the names
+    of all findings that must hold if the step is done.
     """
 
     def requires(self, finding: str) -> bool:

@@ -138,10 +138,10 @@ OFF_MIDDLE: Final = 3e-3
 """Permitted distance (m), along the line of the fingers, between an object and the middle of the fingers when they
 close on the object again.
 
-An object that was carried and set down may have slid in the grip by SKEW and turned by 2 degrees. At a grasp 57 mm
-from that grip, as on the walls of the pump base, the turn is a displacement of 2 mm. In eight pumps, the measured
-displacement was at most 1.8 mm on these walls, and 1.0 mm elsewhere (from play in a hole or rack, and compliance of
-the arm while it held the object).
+An object that was carried and set down may have slid between the fingers by SKEW, and turned by 2 degrees. If the
+fingers then grasp the object 57 mm from the place where they held it, as on the walls of the pump base, the turn
+displaces the grasped place by 2 mm. In eight pumps, the measured displacement was at most 1.8 mm on these walls, and
+1.0 mm elsewhere (from play in a hole or rack, and compliance of the arm while it held the object).
 """
 
 
