@@ -33,7 +33,7 @@ Mode = Literal["line", "box", "busy"]
 
 
 class Screen(Desk):
-    """Shows a session on the full screen, and reads its input."""
+    """Shows a session on the full screen, and reads the user's input."""
 
     def __init__(
         self,

@@ -31,7 +31,7 @@ USUAL: Final = 6
 
 _VISION: Final = "Vision study, section 3."
 IN_PLAY: Final = 70.0
-"""Greatest displacement of a part along an axis, in percent of its play. This limit keeps the part clear of the
+"""Greatest displacement of a part along an axis, in percent of the part's play. This limit keeps the part clear of the
 corners of its seat.
 """
 
