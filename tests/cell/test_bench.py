@@ -214,7 +214,7 @@ def test_what_a_machine_lacks_in_the_scene_or_senses_wrongly_is_told(bench: Benc
         BenchAxes(bench, [axis("a")], period=0.01, channels={wide: sensor("a")})
     with pytest.raises(PhysicsFailed, match=r"^range of axes shows a value that is not a finite number$"):
         BenchAxes(bench, [axis("a")], period=0.01, channels={Channel(name="range"): lambda *_: [np.inf]})
-    with pytest.raises(BadArgument, match=r"need different names, not a_1, a_2, a_1$"):
+    with pytest.raises(BadArgument, match=r"need different names; the given names are a_1, a_2, a_1$"):
         BenchAxes(bench, [axis("a")], period=0.01, channels={wide: sensor("a"), narrow: sensor("a")})
 
 
