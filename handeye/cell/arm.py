@@ -70,8 +70,8 @@ class JointSensors:
 
 
 _BRAKE_STIFFNESS: Final = ((0.004, 1.0), (0.999, 0.9999, 0.001, 0.5, 2.0))
-"""Constraint stiffness of the brakes. With this stiffness, the arm creeps less than .01 degrees in 10 s, until the
-simulator lets the arm sleep.
+"""Constraint stiffness of the brakes. With this stiffness, the arm creeps by less than .01 degrees in 10 s. It stops
+creeping when the simulator lets it sleep.
 """
 
 

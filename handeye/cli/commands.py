@@ -44,7 +44,7 @@ diff = scripts:diff: Compare what two plans do, step by step.
 schema = scripts:schema: Print the JSON schema of the plan format.
 trace: Read the traces of runs.
 trace show = traces:show: Show what happened in a run, and why.
-trace stats = traces:stats: Count what happened in a run, stage by stage, and show how long it took.
+trace stats = traces:stats: For each stage of a run, count what happened, and show how long the stage took.
 trace photograph = traces:photograph: Photograph the cell at a moment of a recorded run, without simulating it again.
 trace verify = traces:verify: Repeat a recorded run, and compare the repetition with the recording.
 trace thin = exports:thin: Shrink a trace to about a tenth of its size, for sharing; the smaller trace keeps the motion that is needed to show the run.

@@ -53,7 +53,7 @@ def show(
 
 
 def stats(run: RunOrEvents = None, /, *, json: Json = False) -> int:
-    """Count what happened in a run, stage by stage, and show how long it took."""
+    """For each stage of a run, count what happened, and show how long the stage took."""
     from handeye.trace.stats import statistics, statistics_table
 
     trace, events = _read(run_or_newest(run))
