@@ -73,7 +73,8 @@ class Entry(Record, frozen=True, kw_only=True):
     sweeps: dict[str, str] = field(default_factory=dict)  # `module:NAME` of a `Sweep`, by kind
     faults: str = ""
     """`module:NAME` of a function that takes a task's name and a world. The function returns the kind of the sweep,
-    and the work that `handeye faults` does for each fault. Empty if the system has no such trials.
+    and the work that `handeye faults` does for each fault. `faults` is empty if `handeye faults` cannot test programs
+    of the system.
     """
     programs: str = ""
     """`module:NAME` of a function that returns the plan with which a program does a task. The function takes the name
