@@ -66,7 +66,7 @@ def check(
     ] = False,
     proof: ProofOptions | None = None,
 ) -> int:
-    """Check a script and its taught positions, including the arm's reach; nothing moves.
+    """Check a script and its taught positions, and whether the arm reaches its goals; nothing moves.
 
     Exit code 0: no errors; 2: errors, or bad input. With --watch, Ctrl-C ends the command with the exit code of the
     last check.
