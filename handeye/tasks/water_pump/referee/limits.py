@@ -31,8 +31,8 @@ SCREW_STRAIN: Final = 420.0
 screws that are tightened later shift the load. In pumps that the arm has made, the force is at most 298 N.
 """
 SCREW_HOLD: Final = 0.02
-"""Torque (N m) that must at least be necessary to turn a screw back. It is the friction torque of a clean thread
-without a clamping force. With a clamping force of 40 N, this torque is at least .026 N m in any world. Without
+"""Least torque (N m) that may turn a screw back. It is the friction torque of a clean thread without a clamping force.
+With a clamping force of 40 N, a torque of at least .026 N m is needed to turn a screw back in any world. Without
 friction, the clamping force itself would turn the screw out.
 """
 SCREW_SIZE: Final = 0.35
