@@ -105,7 +105,7 @@ def simplified(numbers: Array, groups: Sequence[Sequence[int]], tries: int) -> G
 
 def pushes(campaign: Campaign, kind: FailureKind, found: Sequence[NearWorld]) -> list[Push]:
     """Return, for each quantity, how far it deviates from its middle value in the failing worlds. The quantity that
-    must deviate in most of the nearest worlds comes first.
+    must deviate in the largest number of the nearest worlds comes first.
     """
     mine = [each for each in campaign.failing if each.kind == kind]
     if not mine:
