@@ -78,7 +78,9 @@ class BenchAxes(Axes, Mechanism[AxesState]):
         self._senses, self._bent = channels or {}, bent
         parts = [part for channel in self._senses for part in channel.parts]
         if len({*parts}) < len(parts):
-            raise BadArgument(f"the values of {name} need different names; the given names are {', '.join(parts)}")
+            raise BadArgument(
+                f"the values of {name} need different names; the given names are {', '.join(parts)}"
+            )
         self._holds = np.array([spec.holds for spec in specs])
         self._gradual = np.array([spec.name not in at_once for spec in specs])
         self._powered, self._latched = True, dict[str, tuple[float, ...]]()
