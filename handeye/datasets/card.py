@@ -54,7 +54,7 @@ what the referee found wrong, and the versions of the programs.
 """
 _VIEW: Final = """| `privileged.images.view` | view of the camera `{view}` of the scene, rendered from the recorded poses at the moment of the frame, 240 by 320 points. **The robot has no such sensor.** The view shows the true places of the parts, so a policy that uses it is privileged | |
 """
-_PICTURES: Final = """| `observation.images.television` | the last picture of the television camera, 256 by 333 points, and a black column. Level 15 of 16 is 255. The compression of the video is lossy | |
+_PICTURES: Final = """| `observation.images.television` | the last picture of the television camera, 256 by 333 points, and beside it one black column. Level 15 of 16 is 255. The compression of the video is lossy | |
 """
 
 
