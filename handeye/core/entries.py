@@ -54,7 +54,7 @@ VERBS: Final[Mapping[Capability, str]] = {
     "format": "format its scripts",
     "console": "accept typed lines",
     "python": "continue its runs from Python",
-    "leg": "do a leg of a relay",
+    "leg": "run a leg of a relay",
 }  # capabilities of a system, as words after `cannot`
 
 
@@ -90,7 +90,7 @@ class Entry(Record, frozen=True, kw_only=True):
     events: str = ""  # `module:NAME` of a tuple: the kinds of events that only this system has
     languages: dict[str, str] = field(default_factory=dict)  # `OwnLanguage` by file ending
     leg: str = (
-        ""  # `module:NAME` of the `handeye.runs.legs.LegSystem` of a system that can do a leg of a relay
+        ""  # `module:NAME` of the `handeye.runs.legs.LegSystem` of a system that can run a leg of a relay
     )
     environments: dict[str, str] = field(default_factory=dict)
     """The Gymnasium environments of the system. The key is the id of an environment, and the value is the

@@ -1,4 +1,4 @@
-"""Defines the interface of a system that can do a leg of a relay.
+"""Defines the interface of a system that can run a leg of a relay.
 
 A relay is a list of legs; each leg does one stage of a task in the language of one system, on the cell that all legs
 share. The relay (`handeye/systems/relay`) finds the other systems by their entries: `Entry.leg` names a `LegSystem`.
@@ -70,7 +70,7 @@ class RunningLeg(RunningSystem):
 
 
 class LegSystem(ABC):
-    """A system that can do legs of a relay."""
+    """A system that can run legs of a relay."""
 
     system: str  # its entry's name
     state: type[SystemState]  # of its running legs
@@ -138,7 +138,7 @@ class LegSystem(ABC):
 
 
 def leg_system(name: str) -> LegSystem:
-    """Return the `LegSystem` of the system called `name`. Raises Refused if the system cannot do legs, and NoSuchName
+    """Return the `LegSystem` of the system called `name`. Raises Refused if the system cannot run legs, and NoSuchName
     if there is no such system.
     """
     require(name, "leg")

@@ -59,7 +59,7 @@ OF_LEGS: Final[Mapping[type, type[SystemEvent]]] = {
     if "leg" in entry.can and entry.events
     for kind in loaded(entry.events)
 }
-"""For each kind of event of a system that can do a leg, the kind of event that the relay reports instead."""
+"""For each kind of event of a system that can run a leg, the kind of event that the relay reports instead."""
 EVENTS: Final[tuple[Any, ...]] = (LegStarted, LegFinished, *OF_LEGS.values())
 
 
