@@ -2,10 +2,10 @@
 short steps while there are any other contacts. If the task allows middle steps, which are shorter than long steps,
 most of these other contacts are computed in middle steps instead of short steps.
 
-Contacts need short steps, because their softness grows with the square of the step. Free motion does not need short
-steps: with long steps it has the same speeds, but is early by 1.6 ms, half of the difference between a long step and a
-short step. Brakes and dry friction of joints are constraints too. A joint held by friction creeps at up to 9e-6 rad/s
-with long steps, and at up to 4e-6 rad/s with short steps.
+Contacts need short steps, because their softness grows with the square of the length of the step. Free motion does not
+need short steps: with long steps it has the same speeds, but is early by 1.6 ms, half of the difference between a long
+step and a short step. Brakes and dry friction of joints are constraints too. A joint held by friction creeps at up to
+9e-6 rad/s with long steps, and at up to 4e-6 rad/s with short steps.
 
 A part that is carried through the air touches only the bodies that hold it. While the part has only these contacts,
 steps may be long too, if the task names the pairs of bodies that touch. In long steps these contacts are made stiffer,

@@ -158,15 +158,17 @@ def _as_seen(old: Scan, view: View, part: Part, places: Array) -> Array:
 
 
 class _BaseSteps(NamedTuple):
-    """Thresholds for the picture without the gasket: the least step across a border, and the intensity of the face."""
+    """Thresholds for the picture without the gasket: the least change of intensity across a border, and the intensity
+    of the face.
+    """
 
     before: float
     face: float
 
 
 class _Steps(NamedTuple):
-    """Thresholds: the least steps across a border in the difference and in the picture without the gasket, and the
-    intensity of the face.
+    """Thresholds: the least changes of intensity across a border, in the difference and in the picture without the
+    gasket; and the intensity of the face.
     """
 
     after: float
