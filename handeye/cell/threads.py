@@ -299,7 +299,7 @@ class Threads(Mechanism[ThreadsState]):
     # --- the motor ---
 
     def _couple(self, speed: float) -> None:
-        """Let the motor turn the screw on which the bit stands, if there is one."""
+        """If the bit is in the slot of a screw, let the motor turn this screw."""
         model, data = self._model, self._data
         hole = self._under_bit()
         gain = MOTOR_STIFFNESS if hole is not None and speed != 0.0 else 0.0

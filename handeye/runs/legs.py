@@ -59,7 +59,8 @@ class RunningLeg(RunningSystem):
 
     def take_back(self, station: StationMemory) -> None:
         """Take the arm back from the program of the next leg, after that program has undone its steps. The arm is
-        roughly where it was when this leg ended. Only a program that can undo its own steps needs this method.
+        roughly where it was when this leg ended. The program of this leg needs this method only if it can undo its own
+        steps.
         """
         raise NotImplementedError
 

@@ -1,5 +1,5 @@
-"""Firmware of a motor, which converts commands to pulse trains. If a pin rises during a motion, the motor slows down
-by the steepest ramp until it stands.
+"""Firmware of a motor, which converts commands to pulse trains. If the level at a pin of the interrupt gate rises
+during a motion, the motor stops with the steepest ramp.
 """
 
 from typing import Final, Literal
