@@ -66,14 +66,14 @@ BodyPairs = frozenset[tuple[int, int]]  # numbers of bodies, the smaller first
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Carrying:
-    """The contacts that are allowed in longer steps. Bodies are given by name."""
+    """The contacts that are allowed in long steps and in middle steps. Bodies are given by name."""
 
     hand: str  # the body that moves everything that is carried
     pairs: tuple[tuple[str, str], ...]  # allowed in long steps: the hand and a free body, or two free bodies
     delicate: tuple[tuple[str, ...], ...] | None = None
-    """The contacts that are not allowed in steps of medium length. A tuple with two bodies stands for their contact
-    with each other; a tuple with one body stands for every contact of this body. If this is None, the simulation takes
-    no steps of medium length.
+    """The contacts that are not allowed in middle steps. A tuple with two bodies stands for their contact with each
+    other; a tuple with one body stands for every contact of this body. If `delicate` is None, the simulation takes no
+    middle steps.
     """
     resting: tuple[str, ...] = ()  # joints that do not move during middle steps
 
@@ -142,7 +142,7 @@ class PhysicsStepper:
     """
 
     def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, carrying: Carrying | None = None) -> None:
-        """`carrying` gives the contacts that are allowed in longer steps. By default no contacts are allowed."""
+        """`carrying` names the contacts that do not need short steps. By default every contact needs short steps."""
         self._model, self._data, self._short = model, data, float(model.opt.timestep)
         self._option, self._contacts = model.opt, ContactMemo(data, self._judged)
         self._allowing = lru_cache(maxsize=_JUDGED)(self._allowed_by)

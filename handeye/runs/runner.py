@@ -54,8 +54,8 @@ RECENT: Final = 400  # steps whose states stay in memory; older states only at t
 
 
 def reach(first: int) -> str:
-    """Say in a sentence that a run cannot go back beyond its earliest state. `first` is the number of steps done in
-    this state.
+    """Say in a sentence that a run cannot go back beyond its earliest state. `first` is the number of steps that came
+    before this state.
     """
     return (
         f"this run begins with {counted(first, 'step')} already done: there is no earlier state to go back to"

@@ -1,8 +1,8 @@
 """Finds each RESTORE whose difference has not been saved on any path to that RESTORE.
 
-There is one exception. A difference may be saved relative to a goal that a RESTORE of the same difference has shifted.
-Each SAVE then changes the goal to which the next SAVE refers. Before the first SAVE of such a difference, the
-difference may be used with the value zero.
+There is one exception. Some programs save a difference relative to a goal that a RESTORE of the same difference has
+shifted. Each SAVE then changes the goal to which the next SAVE refers. Before its first SAVE, such a difference has
+the value zero, and a RESTORE of it is no mistake.
 """
 
 from collections.abc import Iterator
