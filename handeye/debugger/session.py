@@ -38,7 +38,7 @@ class DebugSession:
     ) -> None:
         """Take control of a run. The run pauses at breakpoints and also at `stops`.
 
-        `kept` finds the newest checkpoint on disk at which at most a given number of steps were done. `keep` writes
+        `kept` finds the newest checkpoint on disk that was made after at most a given number of steps. `keep` writes
         a checkpoint, if the run stores checkpoints. `pictures` is the folder to which the last picture is
         written when the user asks for it.
         """

@@ -221,7 +221,7 @@ def _causes(
 
 
 def _concerns_search(uses: Iterable[Use]) -> bool:
-    """Return True if one of the values that an operation reads or writes is the present search."""
+    """Return True if an operation reads or writes the state of the present search."""
     return any(use.kind == "search" for use in uses)
 
 
