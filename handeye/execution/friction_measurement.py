@@ -89,9 +89,11 @@ def measure_joints(
 
 def at_rest(slow: Array, quick: Array) -> Array:
     """Compute the Coulomb friction from the friction in the slow pass and in the quick pass. All arrays have shape
-    (n,). A line through the two values of a joint gives the Coulomb friction at rate 0. In our model of friction,
-    friction cannot fall as the rate rises. If the friction of a joint seems to fall, the function returns the mean of
-    the two values, weighted by the durations of the passes.
+    (n,).
+
+    A line through the two values of a joint gives the Coulomb friction, the friction at rate 0. In our model of
+    friction, friction cannot fall as the rate rises. If the friction of a joint seems to fall, the function returns
+    the mean of the two values, weighted by the durations of the passes.
     """
     line = (QUICK.rate * slow - SLOW.rate * quick) / (QUICK.rate - SLOW.rate)
     level = (SLOW.seconds * slow + QUICK.seconds * quick) / (SLOW.seconds + QUICK.seconds)

@@ -53,8 +53,8 @@ class HeldObject:
 
 
 def sensed_forces(run: RecordedRun) -> tuple[SensedForce, ...]:
-    """Return the forces of a run, the earliest first. Returns no forces if the trace contains no motion, or if its
-    forces are not in the axes of the world.
+    """Return the forces of a run, the earliest first. Returns no forces if the trace contains no motion, or if the
+    task gives forces in other axes than those of the world.
     """
     task = known_any(run.trace.head.task)
     if not len(run.trace.times) or (task is not None and task.force_axes != AnyTask.force_axes):
