@@ -208,8 +208,8 @@ class PhysicsStepper:
         mujoco.mj_step(self._model, self._data, steps)
 
     def _again(self, steps: int) -> None:
-        """Go back to the beginning of the last `steps` short steps, and make fine steps instead. A simulator that has
-        given a warning may have reset its state, and even its controls.
+        """Go back to the beginning of the last `steps` short steps, and make fine steps instead. First restore the
+        state and the controls, because MuJoCo may have reset both when it gave a warning.
         """
         model, data = self._model, self._data
         mujoco.mj_setState(model, data, self._before, _WHOLE_STATE)

@@ -1,4 +1,4 @@
-"""Of the worlds in which a program fails, finds the worlds nearest to the middle of all quantities. Also finds the
+"""Finds the worlds in which a program fails and which are nearest to the middle of all quantities. Also finds the
 quantities that make the program fail.
 
 A world in which the program fails differs from the middle in every quantity, although only a few quantities matter.

@@ -81,7 +81,7 @@ class Operations(BusOperations):
         self._tell(TaskEnded(time=self.time, task=name, killed=killed))
 
     def behind(self, address: int) -> int:
-        """Return the address of the code that follows the line to which an address belongs."""
+        """Find the line whose code contains `address`, and return the address of the code that follows this line."""
         index = self.program.line_at[address]
         line = self.program.lines[index]
         if index + 1 < len(self.program.lines) and self.program.lines[index + 1].task == line.task:
