@@ -29,7 +29,7 @@ def controlled(run: ExecutionContext, controller: Controller, most: int) -> tupl
     set the brakes until the arm stands still. Returns the commands.
 
     Earlier steps can no longer be undone: a reversal must begin where the last step ended, and the controller has
-    moved the arm away from there. The program no longer assumes that nothing touches the hand.
+    moved the arm away from there. From then on, the program assumes that an object may touch the hand.
     """
     drive, effort, commands = run.drive, constants(run.arm).effort, list[CommandedPeriod]()
     while len(commands) < most and (command := controller(drive.sensed)) is not None:

@@ -38,8 +38,8 @@ class NearWorld(Record, frozen=True, kw_only=True):
 
 
 class Push(Record, frozen=True, kw_only=True):
-    """How far one quantity lies, on average, from its middle value in failing worlds, in standard deviations. The
-    signs show whether the program fails mostly at greater or at smaller values of this quantity.
+    """How far one quantity lies, on average, from its middle value in failing worlds, in standard deviations. The sign
+    of a mean deviation shows whether the program fails mostly at greater or at smaller values of this quantity.
     """
 
     quantity: str
@@ -60,7 +60,9 @@ class _Descent:
 
 
 def nearest(campaign: Campaign, kind: FailureKind, count: int, rounds: int) -> list[NearWorld]:
-    """Search from the `count` failing worlds whose errors are smallest, with at most `rounds` runs for each world."""
+    """Find nearer failing worlds. There is one search for each of the `count` failing worlds whose errors are
+    smallest. The search begins at that world, and makes at most `rounds` runs.
+    """
     descents = [_begun(campaign, each, rounds) for each in _chosen(campaign, kind, count)]
     for number in range(rounds):
         active = [each for each in descents if each.candidate is not None]

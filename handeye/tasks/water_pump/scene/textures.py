@@ -39,7 +39,7 @@ def add_textures(spec: mujoco.MjSpec) -> None:
 
 @cache
 def _pixels() -> dict[str, NDArray[np.uint8]]:
-    """Return the pictures of the grains, by name."""
+    """Return the texture of each grain, with the name of the grain as the key."""
     return {
         name: (255 * grain(np.random.default_rng(number)).clip(0, 1)).astype(np.uint8)
         for number, (name, grain) in enumerate(_GRAINS.items())
