@@ -175,7 +175,7 @@ class ServoLoop(Servo):
     def gliding(self, samples: Samples, guard: Monitor | None, direction: Array | None) -> Motion[Outcome]:
         """Follow set-points through free air. See `following`.
 
-        An obstacle and a force on the hand are two different errors. They are distinguished by the distance of the
+        An obstacle and a force on the hand raise two different errors. They are distinguished by the distance of the
         hand from its set-points in the middle of the motion. A hand that meets an obstacle lags behind its set-points
         only after it has met the obstacle. A hand on which a force acts is displaced during the whole motion.
 

@@ -37,7 +37,9 @@ class Before:
     """The line to which an abort leads; None if the program stops."""
 
     def met(self, other: "Before") -> "Before":
-        """Return what holds before a line if the program can reach the line in this state and in the state `other`."""
+        """Return what is certain before a line that the program can reach either in this state or in the state
+        `other`.
+        """
 
         def same(one: Mapping[str, object], two: Mapping[str, object]) -> dict[str, object]:
             return {name: value if value == two[name] else UNKNOWN for name, value in one.items()}
