@@ -76,9 +76,9 @@ _MEANINGS: Final = {
     "counter-clockwise)",
     "STOP": (
         "end the next motion when the hand presses along this vector with a force (oz) greater than the length of "
-        "the vector; if a moment is given, also when the hand exerts a greater moment (oz-in). A single number is "
-        "an extension of handeye: the motion ends when more than this force opposes it, in whatever direction the "
-        "hand moves. Error 23 if nothing stops the motion"
+        "the vector; if a moment (oz-in) is given, also when the hand exerts more than this moment. A single "
+        "number is an extension of handeye: the motion ends when more than this force opposes it, in whatever "
+        "direction the hand moves. Error 23 if nothing stops the motion"
     ),
     "FORCE": "press with this force (oz) and turn with this moment (oz-in) during the next CHANGE",
     "FREE": "let the hand yield to forces along the given table axes during the next CHANGE: give 1 (yield) or 0 (stay "
