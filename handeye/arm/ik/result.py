@@ -66,7 +66,7 @@ def shared(first: Joint, last: Joint, sense: float, one: float, other: float) ->
 
     If `sense` is positive, both joints turn the hand in the same direction; otherwise, in opposite directions. There
     is one pair for each possible number of whole turns. The first joint stays at the position `one` if the last joint
-    can do the rest of the turn.
+    can reach the angle that completes the turn of the hand.
     """
     sign, ends, found = math.copysign(1.0, sense), (last.lower, last.upper), []
     turns = math.ceil((first.upper - first.lower + last.upper - last.lower) / (2 * math.pi))

@@ -383,8 +383,8 @@ def schedule_lines(schedule: Sequence[Act]) -> list[str]:
 
 
 def unreached_lines(program: MalProgram, result: Interleavings) -> str:
-    """Return the lines that no order executes, such as `lines 40, 70 to 90`. The text is empty if there are no such
-    lines.
+    """Return the lines that are never executed, whatever the order of the tasks, such as `lines 40, 70 to 90`. The
+    text is empty if there are no such lines.
     """
     numbers, spans = [line.number for line in program.lines], list[list[int]]()
     for before, number in zip([None, *numbers], numbers, strict=False):
