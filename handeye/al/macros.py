@@ -141,7 +141,7 @@ class _Expansion:
     def operands(
         self, line: FilledLine, definition: Instruction, frame: _Frame
     ) -> tuple[Value | None, ...] | None:
-        """Return the operands of a line, or None after a mistake has been reported."""
+        """Return the operands of a line. If the line is wrong, report the mistake and return None."""
         try:
             if len(line.text) > LONGEST_LINE:
                 message = f"with the operands filled in, the line has {len(line.text)} characters"

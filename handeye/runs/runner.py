@@ -81,8 +81,9 @@ class Runner:
         parts: Parts = OWN,
         calibrate: bool = False,
     ) -> None:
-        """Build the cell. If `start` contains a state of the run, restore this state. If not, calibrate
-        the cell's camera, or restore the state that an earlier run stored after its calibration.
+        """Build the cell. If `start` contains a state of the run, restore this state. If not, restore the state that
+        an earlier run stored after it calibrated the camera. If no earlier run stored such a state, calibrate the
+        camera.
 
         Args:
             halt: the panic button, polled in every servo period; Halted is raised if it is pressed during
