@@ -24,8 +24,8 @@ short steps. The interval of this step is then computed again in fine steps.
 Euler's method moves the joints, and with them the hand, along an arc, but a free body along the tangent. For a free
 body, Euler's method thus leaves out the second-order term of the motion: half the acceleration times the square of the
 step. After long steps this term is therefore added to carried bodies; it is a few micrometres in a servo period. The
-term does not hold a part in the fingers. Only friction holds the part, and a part that slips goes on slipping. Short
-steps leave the term out. With the term, a held part creeps less than in short steps.
+term does not stop a part that slips in the fingers, because only friction holds the part. Short steps leave the term
+out. With the term, a held part creeps less than in short steps.
 
 MuJoCo puts a tree of bodies to sleep when the tree, and everything it touches, has hardly moved for ten steps. MuJoCo
 wakes a sleeping tree when an awake body touches the tree, but not when a motor receives a new command. Code that

@@ -18,8 +18,8 @@ from handeye.program.motion_operations import Move
 
 
 def check_restores(lowered: Lowered, graph: Graph) -> Iterator[Diagnostic]:
-    """Report RESTOREs that are wrong in every call. A name without any SAVE is not reported here, because
-    `check_names` reports it.
+    """Report each RESTORE that is wrong in every call of the macro that contains it. A name without any SAVE is not
+    reported here, because `check_names` reports it.
     """
     saves = {number: _name(lowered.origins[number]) for number in graph.which(Save)}
     first: dict[str, Name] = {}

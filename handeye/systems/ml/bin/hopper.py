@@ -98,7 +98,7 @@ def _solve_densely(spec: mujoco.MjSpec) -> None:
 
     MuJoCo 4.0.0 factorises the sparse Hessian wrongly for some patterns of contacts, for example if fingers touch
     parts of a pile, and these parts touch each other. Newton's method then ends after 100 iterations without a
-    solution, and a part leaves the pile at 1000 rad/s.
+    solution, and the wrong forces throw a part out of the pile, spinning at 1000 rad/s.
     """
     spec.option.jacobian = mujoco.mjtJacobian.mjJAC_DENSE
 

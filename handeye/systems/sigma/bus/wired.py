@@ -319,7 +319,7 @@ class WiredBus(MicrobusPort):
         return device.crystal.after(0, self.timing.scan, at + 1)
 
     def _reflexes(self, number: int) -> list[tuple[int, bool]]:
-        """Return the motors that a force microcomputer can interrupt, each with True while it is interrupted."""
+        """Return pairs: a motor that a force microcomputer can interrupt, and True if this motor is interrupted now."""
         device = self._nodes[number].device
         assert isinstance(device, Force)
         pairs = ((self._wired.get((number, c)), level) for c, level in enumerate(device.pins))
