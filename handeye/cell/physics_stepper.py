@@ -360,7 +360,7 @@ def wake(data: mujoco.MjData, dof: int) -> None:
 
 
 def wake_all(data: mujoco.MjData, dofs: NDArray[np.int_]) -> None:
-    """Wake the trees of bodies to which degrees of freedom belong, if the trees sleep."""
+    """Wake the sleeping trees of bodies to which the degrees of freedom `dofs` belong."""
     data.qvel[dofs[data.qvel[dofs] == 0.0]] = _NUDGE
 
 
