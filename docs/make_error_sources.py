@@ -39,7 +39,7 @@ def _tables() -> Iterator[str]:
     yield (
         f"\nThe world of a pump has {len(there)} uncertain quantities. For {len(without)} of these quantities, no "
         f"source gives the size of the error. For {len(ours)} more, the size comes from a study of ours, from our "
-        f"notes, or from an inference of ours. The other {len(rest)} have a size from a document, or one that needs "
+        f"notes, or from an inference of ours. For the other {len(rest)}, the size comes from a document, or needs "
         "no source.\n"
     )
     yield "\n## Without a source\n\n| quantities | size | what | why there is none, and a bound |\n|---|---|---|---|\n"

@@ -119,7 +119,7 @@ _HOMES = {
     "plan": "handeye.api.plans",
     "scripts": "handeye.api.provided",
 }
-"""The module that defines each public name."""
+"""For each public name, the module that defines it."""
 _MODULES = ("arm", "tasks", "trials", "vision")
 
 if not TYPE_CHECKING:  # with this function, type checkers would accept every name

@@ -150,7 +150,10 @@ def test_an_event_list_that_is_not_of_the_run_is_left_out(command: Command, take
     events.write_text(events.read_text("utf-8").replace('"gap":0.0', '"gap":0.9'), encoding="utf-8")
     code, _, err = command("dismantle", "other")
     assert code == 0
-    assert "left out: other/events.jsonl, which does not belong to the run of the checkpoints in other" in err
+    assert (
+        "left out: other/events.jsonl; these events and the checkpoints in other belong to different runs"
+        in err
+    )
 
 
 def test_it_is_resumed_where_it_was_broken_off(command: Command, taken: Path) -> None:

@@ -144,7 +144,7 @@ def test_a_report_of_an_assembly_needs_a_folder(command: Command) -> None:
     code, _, err = command("assemble", "--report", "--no-keep")
     sentence = (
         "handeye: --report writes a page into the folder of the run, but with --no-keep there is no folder; "
-        "leave out one of them\n"
+        "leave out one of these two options\n"
     )
     assert (code, err) == (2, sentence)
 
@@ -201,7 +201,7 @@ def test_the_demo_takes_less_than_an_eighth_of_a_megabyte_for_a_minute_of_its_ru
 
 
 def test_the_demonstration_brings_its_own_run(command: Command) -> None:
-    assert refused(command, "kept", "--demo") == "--demo brings its own run; give either a run or --demo"
+    assert refused(command, "kept", "--demo") == "--demo has its own run; give either a run or --demo"
 
 
 def test_a_picture_that_a_run_has_left_and_nobody_can_read_is_missing(

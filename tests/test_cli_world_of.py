@@ -63,7 +63,7 @@ def test_a_world_of_ones_own_does_not_go_with_that_of_a_run(
 ) -> None:
     others = "--seed, --world, --level, --without, --set, --scale, --fault and --camera"
     assert refused(command, recorded, "--world-of", "run", *words) == (
-        f"run brings its own world; {others} cannot be given with --world-of"
+        f"run has its own world; {others} cannot be given with --world-of"
     )
 
 

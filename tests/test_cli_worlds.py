@@ -266,7 +266,7 @@ def test_checkpoints_of_two_worlds_do_not_mix(command: Command, half_run: Path) 
 def test_a_checkpoint_brings_its_own_world(command: Command, half_run: Path, words: tuple[str, str]) -> None:
     kept = next((half_run / "checkpoints").glob("0002-*"))
     code, _, err = command("do", "OPEN 1", "--from", str(kept), *words)
-    told = "brings its own world; --seed, --level, --without, --set, --scale and --fault cannot be given with --from\n"
+    told = "has its own world; --seed, --level, --without, --set, --scale and --fault cannot be given with --from\n"
     assert (code, err) == (2, f"handeye: {kept} {told}")
 
 

@@ -1,4 +1,6 @@
-"""Writes the end of a brief of the agents' bench. The end is the same for all tasks of a language."""
+"""Writes the last paragraphs of each brief of the agents' bench. Their text depends mainly on the language of the
+task.
+"""
 
 import tomllib
 from pathlib import Path

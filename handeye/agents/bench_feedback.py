@@ -25,8 +25,8 @@ def feedback(found: Sequence[Verdict], kind: Feedback) -> str:
 
 
 def _traces(found: Sequence[Verdict]) -> Iterator[str]:
-    """Yield the last steps in the worlds in which the solution was not accepted. If the program made no step in
-    several worlds, and for the same reason in all of them, one section covers these worlds.
+    """Yield a section with the last steps of each world in which the solution was not accepted. Worlds in which the
+    program made no step share a section if the reason is the same.
     """
     wrong = (each for each in found if each.outcome != "accepted" and each.listed)
     for (_, why), worlds in groupby(wrong, lambda each: (each.seed if each.steps else None, each.message)):

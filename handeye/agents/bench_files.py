@@ -28,7 +28,9 @@ class Derived(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     for a file of another task, or `plans/NAME` for a program included with handeye.
     """
     changes: list[tuple[str, str]] = []
-    """Changes, in their order. Each is a pair: a text that occurs once, and the text that replaces it."""
+    """Changes, in the order in which they are made. Each change is a pair: a text that occurs once, and the text that
+    replaces it.
+    """
 
 
 @dataclass(frozen=True, slots=True)

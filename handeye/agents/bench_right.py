@@ -24,7 +24,7 @@ _HEARD: Final = "heard"  # the mechanism that keeps the lines that a program pri
 
 
 class Body(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """Where a body must be at the end."""
+    """Where a body must be when the program has ended."""
 
     name: str
     frame: str = ""  # body from which the place is measured; empty: the world

@@ -27,8 +27,8 @@ TaughtPositions = Annotated[
     Meta(
         max_length=500_000,
         description="Taught positions (inches, degrees). A value with a line break is the text of a TOML file. A "
-        "value without one is the name of a file in the folder, or the name of an included program whose positions "
-        "are used. Default: the .toml file next to the script, if there is one.",
+        "value without a line break is the name of a file in the folder, or the name of an included program whose "
+        "positions are used. Default: the .toml file next to the script, if there is one.",
     ),
 ]
 TaskName = Annotated[
@@ -149,7 +149,7 @@ class Advance(Request, frozen=True, kw_only=True):
     ) = None
     answer: Annotated[
         Literal["retry", "proceed", "skip"] | None,
-        Meta(description="The answer to the program's call to the operator, before the run continues."),
+        Meta(description="Answer this to the program's call to the operator, and then continue the run."),
     ] = None
 
 

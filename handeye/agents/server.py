@@ -69,7 +69,9 @@ class _Lines:
 _ESCAPED: Final = re.compile(
     r"\\u[dD][89abAB][\da-fA-F]{2}\\u[dD][c-fC-F][\da-fA-F]{2}|(\\u[dD][89a-fA-F][\da-fA-F]{2})|\\."
 )
-"""An escape in a JSON text. The group of this expression matches half of a surrogate pair without its other half."""
+"""An escape in a JSON text. The group of this expression matches one half of a surrogate pair if the other half is
+missing.
+"""
 
 
 def decodable(line: str) -> str:

@@ -34,7 +34,8 @@ TOOLS: Final = (
     ),
     Tool(
         name="check", takes=requests.Check, act=Toolbox.check,
-        about="Check a script and its taught positions, including the arm's reach. Nothing moves. Use it before `run`.",
+        about="Check a script and its taught positions, and whether the arm reaches its goals. Nothing moves. Use "
+        "it before `run`.",
     ),
     Tool(
         name="explain", takes=requests.Explain, act=Toolbox.explain,

@@ -86,8 +86,8 @@ def compile_text(source: Source, taught: Taught) -> tuple[Program | None, list[D
 
 
 def _without_lost_labels(source: Source, found: list[Diagnostic]) -> list[Diagnostic]:
-    """Drop the diagnostics of unknown labels that only follow from another mistake: a label without a colon, or a
-    wrong operand.
+    """Drop the diagnostics of those labels that are unknown only because of another mistake: a label without a colon,
+    or a wrong operand.
     """
     lost = [d for d in found if d.code == "unknown-label"]
     if not lost:

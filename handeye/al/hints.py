@@ -1,4 +1,4 @@
-"""Hints for typing slips, and for words of other languages."""
+"""Hints for typing errors, and for words of other languages."""
 
 import re
 from typing import Final

@@ -76,9 +76,9 @@ _MEANINGS: Final = {
     "counter-clockwise)",
     "STOP": (
         "end the next motion when the hand presses along this vector with a force (oz) greater than the length of "
-        "the vector; if a moment is given, also when the hand exerts a greater moment (oz-in). A single number is "
-        "an extension of handeye: the motion ends when more than this force opposes it, in whatever direction the "
-        "hand moves. Error 23 if nothing stops the motion"
+        "the vector; if a moment (oz-in) is given, also when the hand exerts more than this moment. A single "
+        "number is an extension of handeye: the motion ends when more than this force opposes it, in whatever "
+        "direction the hand moves. Error 23 if nothing stops the motion"
     ),
     "FORCE": "press with this force (oz) and turn with this moment (oz-in) during the next CHANGE",
     "FREE": "let the hand yield to forces along the given table axes during the next CHANGE: give 1 (yield) or 0 (stay "
@@ -99,9 +99,9 @@ _MEANINGS: Final = {
     "SKIPE": "skip the next instruction if the last action raised this error; the test clears the error",
     "SKIPN": "skip the next instruction if the last action did not raise this error; the test clears the error",
     "SEARCH": (
-        "start a search of places that are this step (inches) apart, on a square spiral with three steps to each "
-        "side; with ALONG, the places are on a line in this direction (degrees from the x axis of the table), with "
-        "four steps to each side; STEPS sets a different number of steps"
+        "start a search of places on a square spiral, one step (inches) apart, with three steps to each side; with "
+        "ALONG, the places are on a line in the given direction (degrees from the x axis of the table), with four "
+        "steps to each side; STEPS sets a different number of steps"
     ),
     "AOJ": "select the next place of the search and jump back to the label; error 6 if no place is left",
     "ASSIGN": "set a counter",

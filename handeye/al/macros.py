@@ -53,8 +53,8 @@ def expand(script: Script, report: Callable[[Diagnostic], None]) -> list[Expande
 
 
 def as_called(script: Script, placed: list[ExpandedStatement]) -> Iterator[Statement]:
-    """Yield the statements of a script and of its macros. The statements of a macro with parameters are yielded
-    with the operands of each call filled in.
+    """Yield the statements of a script and of its macros. If a macro has parameters, its statements are yielded as
+    each call fills them in.
     """
     yield from script.statements
     for macro in script.macros.values():
@@ -141,7 +141,7 @@ class _Expansion:
     def operands(
         self, line: FilledLine, definition: Instruction, frame: _Frame
     ) -> tuple[Value | None, ...] | None:
-        """Return the operands of a line, or None after a mistake has been reported."""
+        """Return the operands of a line. If the line is wrong, report the mistake and return None."""
         try:
             if len(line.text) > LONGEST_LINE:
                 message = f"with the operands filled in, the line has {len(line.text)} characters"

@@ -311,9 +311,7 @@ class _Reader(msgspec.Struct, gc=False):
         raise Mistake("too-many-operands", message, span, help=help)
 
     def is_too_early(self, token: Token) -> bool:
-        """Return True if a token is a keyword that comes before its place among the operands, so that it was read as a
-        name.
-        """
+        """Return True if a token was read as a name, but is the keyword of an operand that is still missing."""
         read = zip(self.definition.operands, self.values, strict=True)
         return token.kind is NAME and token.text.upper() in {o.word for o, v in read if v is None} - {"", NIL}
 

@@ -1,4 +1,4 @@
-"""The statements of a script by word, and the names that they use."""
+"""Groups the statements of a script by their first word, and collects the names that the statements use."""
 
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence

@@ -72,7 +72,7 @@ def take_control(runner: Runner, controller: Controller, seconds: float) -> str:
 
 def _named(controller: object) -> str:
     if not callable(controller):
-        raise BadArgument(f"a controller must be a function of the readings, not {controller!r}")
+        raise BadArgument(f"a controller must be a function that receives the readings, not {controller!r}")
     return name_of(controller)
 
 

@@ -91,8 +91,8 @@ def _checked_vision(vision: object) -> dict[str, VisionFunction]:
 def _checked_search(search: SearchPattern) -> SearchPattern:
     if not callable(search):
         raise BadArgument(
-            f"a search must be a function that takes the number of a place and returns the place; {search!r} is "
-            "not a function"
+            "a search must be a function that takes a whole number and returns the place with this number; "
+            f"{search!r} is not a function"
         )
 
     name = name_of(search)

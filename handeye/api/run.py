@@ -307,8 +307,8 @@ class Run:
 
     @property
     def arm(self) -> ArmModel:
-        """The model of the arm, with the link weights that the arm has measured. Apart from these weights, it
-        describes the arm of the drawings; the arm of a world has errors that only measurements show.
+        """The model of the arm, with the link weights that the arm has measured. All other values are those of the
+        drawings. The arm of a world differs from the drawings, and only measurements show by how much.
         """
         return self._runner.context.drive.built
 

@@ -138,8 +138,8 @@ def _again(given: FileName, wanted: RunRequest) -> Start:
     _check_same(path, start.setup, wanted)
     if wanted.replaced or wanted.limits not in (None, start.setup.limits):
         raise Refused(
-            f"search pattern, camera and referee of the run in {path} cannot be replaced in the folder of the run; "
-            "choose another folder as out=..."
+            f"the run in {path} must keep its search pattern, its camera and its referee; to replace them, choose "
+            "another folder as out=..."
         )
     return Start(state=start, folder=folder)
 

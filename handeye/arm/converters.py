@@ -32,16 +32,16 @@ def _half_step(arm: ArmModel) -> Array:
 
 @lru_cache(maxsize=16)
 def rate_step(arm: ArmModel) -> Array:
-    """Return one converter step of each tachometer, shape (n,), in rad/s or m/s. We assume that the steps of a
-    converter span the rates of its joint.
+    """Return one converter step of each tachometer, shape (n,), in rad/s or m/s. We assume that the range of a
+    converter is the range of the joint's rate, from the greatest negative to the greatest positive rate.
     """
     return 2 * constants(arm).speed / 2**SENSE_BITS
 
 
 @lru_cache(maxsize=16)
 def torque_step(arm: ArmModel) -> Array:
-    """Return one converter step of each drive, shape (n,), in N m or N. The steps of a converter span the torques in
-    both directions.
+    """Return one converter step of each drive, shape (n,), in N m or N. The range of a converter is the range of the
+    drive's torque, in both directions.
     """
     return 2 * constants(arm).effort / 2**TORQUE_BITS
 

@@ -28,13 +28,13 @@ deviations of the scale error of a potentiometer in a world of the level `high`.
 %, and the level `high` doubles it.
 """
 JUMP_STEPS: Final = 4.0
-"""Tolerance, in converter steps, for a change of the potentiometer reading that the tachometer does not show, within
-one servo period. The tolerance is one step for rounding, plus five standard deviations of the noise (.2 steps per
-reading, .4 at the high level).
+"""Tolerance for the difference between the motions that the two sensors show in one servo period, in converter steps
+of the potentiometer. The tolerance is one step for rounding, plus five standard deviations of the noise. The noise of
+a reading is .2 steps, and .4 steps at the high level.
 """
 STRUCK: Final = 3.0
-"""If a joint is struck, its path in one servo period is uncertain by half the change of its rate, times the period,
-times this factor. The factor is our choice.
+"""Factor for the uncertainty of a joint's path if the joint is struck. In one servo period, this uncertainty is the
+product of the factor, the change of the joint's rate and half the period. The factor is our choice.
 """
 
 

@@ -32,11 +32,11 @@ COULOMB: Final = 0.02  # of measured friction, in addition to a quarter of a con
 BEARS: Final = 4.0  # least weight that a joint must carry to be checked, in multiples of its friction; chosen
 LIMIT: Final = 5.0
 """Limit of the remainder of a joint, in multiples of its uncertainty. The uncertainty is one standard deviation. It is
-computed from the errors above, which are twice as large as stated.
+computed from the errors above; each of them is twice the stated spread.
 
-Assembling a pump takes about 350 motions. If two joints were checked in each of them, a limit of 4 would stop one
-assembly in 20 although all drives work, and a limit of 5 one in 2,500. In fact, the arm checks only some of these
-motions: those that begin clear of all objects.
+Assembling a pump takes about 350 motions. If two joints were checked in each motion, a limit of 4 would stop one
+assembly in 20 although all drives work; a limit of 5 would stop one assembly in 2,500. In fact, the arm checks only
+some of these motions: those that begin clear of all objects.
 """
 OFF: Final = 0.4  # share of LIMIT above which further joints are reported with the worst one
 

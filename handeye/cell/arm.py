@@ -70,8 +70,8 @@ class JointSensors:
 
 
 _BRAKE_STIFFNESS: Final = ((0.004, 1.0), (0.999, 0.9999, 0.001, 0.5, 2.0))
-"""Constraint stiffness of the brakes. With this stiffness, the arm creeps less than .01 degrees in 10 s, until the
-simulator lets the arm sleep.
+"""Constraint stiffness of the brakes. With this stiffness, the arm creeps by less than .01 degrees in 10 s. It stops
+creeping when the simulator lets it sleep.
 """
 
 
@@ -206,7 +206,7 @@ class SimulatedArm(Mechanism[ArmState], ArmPort):
     def check(self, state: ArmState) -> None:
         lengths = {len(state.q), len(state.qd), len(self.dofs if state.command is None else state.command)}
         if lengths != {len(self.dofs)}:
-            raise ValueError("the saved arm has a different number of joints from this arm")
+            raise ValueError("the saved state is the state of an arm with a different number of joints")
         finite([*state.q, *state.qd, *(state.command or ()), state.unanswered], "the arm")
         if state.unanswered < 0:
             raise ValueError("the saved watchdog waits for a time in the past")

@@ -160,7 +160,8 @@ class Bench(Clock, Mechanism[BenchTime]):
                 return
             self.handlers[(due := self._due.pop(0)).name]()
         raise HandeyeError(
-            f"the events at {self.now:g} s cause new events at the same time without end; the last is {due.name}"
+            f"the events at {self.now:g} s cause an endless series of new events, all at this time; the last is "
+            f"{due.name}"
         )
 
     def _pass(self, most: int) -> None:

@@ -41,7 +41,7 @@ class AxesState(Record, frozen=True, kw_only=True):
     left: int  # physics steps of the period that are left
     powered: bool = True
     latched: dict[str, tuple[float, ...]]
-    """For each latched channel: the first values after the channel was cleared that were not all zero."""
+    """Values of each latched channel at its first nonzero reading after it was cleared."""
 
 
 class BenchAxes(Axes, Mechanism[AxesState]):
@@ -78,7 +78,9 @@ class BenchAxes(Axes, Mechanism[AxesState]):
         self._senses, self._bent = channels or {}, bent
         parts = [part for channel in self._senses for part in channel.parts]
         if len({*parts}) < len(parts):
-            raise BadArgument(f"the values of {name} need different names, not {', '.join(parts)}")
+            raise BadArgument(
+                f"the values of {name} need different names; the given names are {', '.join(parts)}"
+            )
         self._holds = np.array([spec.holds for spec in specs])
         self._gradual = np.array([spec.name not in at_once for spec in specs])
         self._powered, self._latched = True, dict[str, tuple[float, ...]]()

@@ -20,7 +20,7 @@ from handeye.core.errors import BadArgument, NoSuchName
 from handeye.core.pose import Array
 
 _TOLD: Final = "gloss/"
-"""Prefix of the numeric fields of the scene that hold the metalness and roughness of a material."""
+"""A numeric field of the scene with this prefix holds the metalness and roughness of a material."""
 
 
 def polish(scene: mujoco.MjvScene, model: mujoco.MjModel) -> None:

@@ -85,8 +85,8 @@ FILMS: Final[Mapping[str, FilmStock]] = {
 PLAIN: Final = Lighting(
     lamp=(0.68, 0.635, 0.56), gloss=0.5, sky=(0.22, 0.24, 0.27), everywhere=(0.22, 0.225, 0.235), radius=0.0
 )
-"""Lighting of a photograph of one exposure. The sky casts no shadows in such a photograph, so it is weaker than in a
-photograph of many exposures.
+"""Lighting of a photograph of one exposure. In such a photograph, the light of the sky casts no shadows, so this light
+is weaker than in a photograph of many exposures.
 """
 TONES: Final = np.rint(
     255 * np.clip(FILMS["colour"].developed((np.arange(256) / 255) ** GAMMA), 0, 1)

@@ -55,8 +55,9 @@ class SimulatedHand(Mechanism[HandState], HandPort):
         """Make a hand at rest.
 
         The lines of a hand are `gap_potentiometer`, `finger_motor`, `finger_switch.plus_y` and
-        `finger_switch.minus_y`. The lines `switch_force.plus_y` and `switch_force.minus_y` carry a factor on the
-        force at which a switch closes. While the line `switches` carries 1, the two switches are exchanged.
+        `finger_switch.minus_y`. The lines `switch_force.plus_y` and `switch_force.minus_y` each carry a factor, by
+        which the hand multiplies the force at which a switch closes. While the line `switches` carries 1, the two
+        switches are exchanged.
         """
         self.name = f"{prefix}hand"
         self._model, self._data = model, data

@@ -14,8 +14,8 @@ LAMP: Final = "studio_lamp"
 """Numeric field of a scene that gives the place of the lamp for photographs, in W (m)."""
 CUTOFF: Final = 75.0  # half of the angle of the lamp's cone, degrees
 SHADOWED: Final = 0.5
-"""Part of the cone in which bodies cast shadows, as a fraction of the cone's angle. A larger part would make the
-shadows coarser.
+"""Angle of the inner cone, in which bodies cast shadows, as a fraction of the angle of the lamp's cone. A larger inner
+cone would make the shadows coarser.
 """
 SKY_SHADOWED: Final = (
     1.5  # radius of the region in which the sky casts shadows, divided by the size of the scene
@@ -60,9 +60,9 @@ class Lighting:
         self, scene: mujoco.MjvScene, model: mujoco.MjModel, lamp: Array, sky: Array, wander: Array
     ) -> None:
         """Light a scene from one point of the lamp and one point of the sky. The point of the lamp is given in radii
-        of the lamp's disc. The point of the sky is given by its position as seen from above. `wander` says how far the
-        shadow maps are moved sideways, as a fraction (-.5 to .5) of their greatest movement. Each argument has shape
-        (2,).
+        of the lamp's disc. The point of the sky is given by the horizontal components (x, y) of the unit vector
+        towards it. `wander` says how far the shadow maps are moved sideways, as a fraction (-.5 to .5) of their
+        greatest movement. Each argument has shape (2,).
         """
         scene.nlight = 3
         self._lamp(scene.lights[0], model, lamp, wander)

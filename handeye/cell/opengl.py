@@ -40,11 +40,11 @@ _QUALITY: Final = {"shadowsize": 4096, "offsamples": 0, "numstacks": 2}
 """Quality of pictures: points of the shadow map, samples per fine point, and rings along a cylinder.
 
 More samples and rings would have no effect, because four fine points are averaged and the vidicon blurs the picture.
-The points of the shadow map are .7 mm wide on the table, half a point of a picture. The points of a map of 1024 points
-would be 2.8 mm wide: if a pump were pushed by .1 mm, whole squares at the edges of its shadows would change. With the
-map of 1024 points, corresponding squares of two pictures differed by up to 2.6 levels. With the map of 4096 points, or
-with ray casting, the squares differed by up to 1.0 level (seed 15, 30 pictures each). With the finer map, a picture
-takes .05 s longer.
+On the table, a point of the shadow map is .7 mm wide, half as wide as a point of a picture. With a map of 1024 points,
+a point would be 2.8 mm wide, and a push of the pump by .1 mm would change whole squares at the edges of its shadows.
+With that coarse map, the same square in two pictures of a pushed pump differed by up to 2.6 levels. With the map of
+4096 points, or with ray casting, it differed by up to 1.0 level (seed 15, 30 pictures each). With the finer map, a
+picture takes .05 s longer.
 """
 
 

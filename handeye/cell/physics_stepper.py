@@ -2,10 +2,10 @@
 short steps while there are any other contacts. If the task allows middle steps, which are shorter than long steps,
 most of these other contacts are computed in middle steps instead of short steps.
 
-Contacts need short steps, because their softness grows with the square of the step. Free motion does not need short
-steps: with long steps it has the same speeds, but is early by 1.6 ms, half of the difference between a long step and a
-short step. Brakes and dry friction of joints are constraints too. A joint held by friction creeps at up to 9e-6 rad/s
-with long steps, and at up to 4e-6 rad/s with short steps.
+Contacts need short steps, because their softness grows with the square of the length of the step. Free motion does not
+need short steps: with long steps it has the same speeds, but is early by 1.6 ms, half of the difference between a long
+step and a short step. Brakes and dry friction of joints are constraints too. A joint held by friction creeps at up to
+9e-6 rad/s with long steps, and at up to 4e-6 rad/s with short steps.
 
 A part that is carried through the air touches only the bodies that hold it. While the part has only these contacts,
 steps may be long too, if the task names the pairs of bodies that touch. In long steps these contacts are made stiffer,
@@ -19,13 +19,13 @@ changes no force at rest. All contacts except those of the hand may begin and en
 that is tightened in middle steps clamps with less force than a screw that is tightened in short steps.
 
 If a part is crushed, for example between a fixture and a hand that runs into it, the computation may diverge in
-short steps. The same time is then computed again in fine steps.
+short steps. The interval of this step is then computed again in fine steps.
 
 Euler's method moves the joints, and with them the hand, along an arc, but a free body along the tangent. For a free
 body, Euler's method thus leaves out the second-order term of the motion: half the acceleration times the square of the
 step. After long steps this term is therefore added to carried bodies; it is a few micrometres in a servo period. The
-term does not hold a part in the fingers. Only friction holds the part, and a part that slips goes on slipping. Short
-steps leave the term out. With the term, a held part creeps less than in short steps.
+term does not stop a part that slips in the fingers, because only friction holds the part. Short steps leave the term
+out. With the term, a held part creeps less than in short steps.
 
 MuJoCo puts a tree of bodies to sleep when the tree, and everything it touches, has hardly moved for ten steps. MuJoCo
 wakes a sleeping tree when an awake body touches the tree, but not when a motor receives a new command. Code that
@@ -66,14 +66,14 @@ BodyPairs = frozenset[tuple[int, int]]  # numbers of bodies, the smaller first
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Carrying:
-    """The contacts that are allowed in longer steps. Bodies are given by name."""
+    """The contacts that are allowed in long steps and in middle steps. Bodies are given by name."""
 
     hand: str  # the body that moves everything that is carried
     pairs: tuple[tuple[str, str], ...]  # allowed in long steps: the hand and a free body, or two free bodies
     delicate: tuple[tuple[str, ...], ...] | None = None
-    """The contacts that are not allowed in steps of medium length. A tuple with two bodies stands for their contact
-    with each other; a tuple with one body stands for every contact of this body. If this is None, the simulation takes
-    no steps of medium length.
+    """The contacts that are not allowed in middle steps. A tuple with two bodies stands for their contact with each
+    other; a tuple with one body stands for every contact of this body. If `delicate` is None, the simulation takes no
+    middle steps.
     """
     resting: tuple[str, ...] = ()  # joints that do not move during middle steps
 
@@ -124,7 +124,7 @@ class _Contacts:
     pairs: BodyPairs
     of_hand: BodyPairs  # the pairs with a body that the arm moves
     carried: bool
-    """True if all pairs are allowed in long steps."""
+    """True if every pair of bodies that touch is a pair that may touch in long steps."""
     delicate: bool
     """True if at least one of the pairs is not allowed in steps of medium length."""
     held: tuple[tuple[int, int], ...]
@@ -137,12 +137,12 @@ class PhysicsStepper:
     """Advances the physics of a cell.
 
     If a contact begins or ends during a long step, the long steps of this period are undone, and short steps are made
-    from the last moment before the change. Middle steps are undone if the hand gains or loses a contact, or if a
-    delicate contact begins.
+    from the last moment before the change. Steps of medium length are undone if the hand gains or loses a contact, or
+    if a delicate contact begins.
     """
 
     def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, carrying: Carrying | None = None) -> None:
-        """`carrying` gives the contacts that are allowed in longer steps. By default no contacts are allowed."""
+        """`carrying` names the contacts that do not need short steps. By default every contact needs short steps."""
         self._model, self._data, self._short = model, data, float(model.opt.timestep)
         self._option, self._contacts = model.opt, ContactMemo(data, self._judged)
         self._allowing = lru_cache(maxsize=_JUDGED)(self._allowed_by)
@@ -208,8 +208,8 @@ class PhysicsStepper:
         mujoco.mj_step(self._model, self._data, steps)
 
     def _again(self, steps: int) -> None:
-        """Go back to the beginning of the last `steps` short steps, and make fine steps instead. A simulator that has
-        given a warning may have reset its state, and even its controls.
+        """Go back to the beginning of the last `steps` short steps, and make fine steps instead. First restore the
+        state and the controls, because MuJoCo may have reset both when it gave a warning.
         """
         model, data = self._model, self._data
         mujoco.mj_setState(model, data, self._before, _WHOLE_STATE)
@@ -360,7 +360,7 @@ def wake(data: mujoco.MjData, dof: int) -> None:
 
 
 def wake_all(data: mujoco.MjData, dofs: NDArray[np.int_]) -> None:
-    """Wake the trees of bodies to which degrees of freedom belong, if the trees sleep."""
+    """Wake the sleeping trees of bodies to which the degrees of freedom `dofs` belong."""
     data.qvel[dofs[data.qvel[dofs] == 0.0]] = _NUDGE
 
 

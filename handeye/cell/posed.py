@@ -14,8 +14,8 @@ from handeye.cell.truth import Truth
 from handeye.core.pose import Array
 
 TURNS: Final = "turns/"
-"""Some bodies turn in place, such as the hands of a clock. A numeric field of the scene gives the period (s) of each
-such body; this is the prefix of the field's name.
+"""Some bodies turn in place, such as the hands of a clock. For each such body, the scene has a numeric field with the
+period (s). The name of the field begins with this prefix.
 """
 
 

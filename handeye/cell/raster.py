@@ -27,7 +27,7 @@ class Raster:
     lines: float = 0.0
     """Bow of each line: the displacement of its middle relative to its ends, divided by half the length of the line.
     """
-    field: float = 0.0  # the same down the picture
+    field: float = 0.0  # downward displacement of the middle line, divided by half the height of the picture
 
     def read(self, light: NDArray[np.float32], shift: Array) -> NDArray[np.float32]:
         """Return the light that the beam reads, shape (256, 333), in a picture that is shifted by `shift` =

@@ -2,8 +2,8 @@
 off-screen, and ray casting.
 
 Within the resolution of a vidicon, the two methods give the same picture. Both draw diffuse surfaces without texture
-or gloss, lights with shadows, and an ambient level. Both take four samples for each picture point with an edge. For
-one state of the scene, each method always gives the same values. Neither changes the state.
+or gloss, lights with shadows, and an ambient level. Both take four samples for each picture point on the edge of a
+solid or a shadow. For one state of the scene, each method always gives the same values. Neither changes the state.
 """
 
 from abc import ABC, abstractmethod

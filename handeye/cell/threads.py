@@ -54,8 +54,8 @@ BACKING_TORQUE: Final = 0.2
 THREAD_FRICTION: Final = 0.15  # steel on steel, dry. Assembly study.
 THREAD_RADIUS: Final = 0.00345  # m, mean thread radius over the cosine of the flank. Assembly study.
 STIFF: Final = (0.999, 0.9999, 0.0001)
-"""Constraint impedance of a thread. We measured that with MuJoCo's default impedance, a screw under load makes two
-more turns without going deeper.
+"""Constraint impedance of a thread. With MuJoCo's default impedance, a screw under load made two more turns without
+going deeper, as we measured.
 """
 
 MOTOR_STIFFNESS: Final = 0.032  # N m s/rad: twice the stall torque at 20 rad/s. Assembly study.
@@ -299,7 +299,7 @@ class Threads(Mechanism[ThreadsState]):
     # --- the motor ---
 
     def _couple(self, speed: float) -> None:
-        """Let the motor turn the screw on which the bit stands, if there is one."""
+        """If the bit is in the slot of a screw, let the motor turn this screw."""
         model, data = self._model, self._data
         hole = self._under_bit()
         gain = MOTOR_STIFFNESS if hole is not None and speed != 0.0 else 0.0

@@ -40,8 +40,8 @@ class Vidicon:
         self.gain: float | None = None  # the target voltage of the last picture; None before the first
 
     def expose(self, light: Luminance, *, disc: float = 0.0, hold_target: bool = False) -> Picture:
-        """Digitise light. If the lens is out of focus, the image of each point is a disc of diameter `disc` (points).
-        If `hold_target` is True, the gain of the last picture is kept.
+        """Digitise light. A lens that is out of focus turns each point into a disc; `disc` is the diameter of this
+        disc, measured in points of the picture. If `hold_target` is True, the gain of the last picture is kept.
         """
         image = _defocused(light, disc) if disc > 0.5 else light
         image = np.asarray(cv2.GaussianBlur(image, (0, 0), sigmaX=BLUR[0], sigmaY=BLUR[1]), np.float32)

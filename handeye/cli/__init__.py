@@ -121,7 +121,9 @@ def prepare_streams() -> None:
 
 
 def let_go_of_streams() -> None:
-    """Drop output that can no longer be written, so that the interpreter does not try again when it exits."""
+    """Drop output that can no longer be written, so that the interpreter does not try to write it again when the
+    interpreter exits.
+    """
     for stream in (sys.stdout, sys.stderr):
         if stream.closed:
             continue

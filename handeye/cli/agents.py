@@ -91,16 +91,17 @@ def bench_agents(
     solutions: Annotated[
         Path | None,
         Parameter(
-            help="Instead of --command: a folder that this command wrote earlier, with --out. The programs in this "
-            "folder are judged again."
+            help="Instead of --command: a folder that an earlier `handeye bench agents` wrote with --out. The "
+            "programs in this folder are judged again."
         ),
     ] = None,
     feedback: Annotated[
         Literal["verdict", "errors", "trace"] | None,
         Parameter(
-            help="What the entrant learns between two rounds about its program in the public worlds. verdict: the "
-            "verdict in each world; errors: also the errors, and what the referee measured in the worlds in which "
-            "it accepts the program; trace: also what each step did. Default: verdict; with --try: errors."
+            help="Feedback that the entrant gets between two rounds, from the runs of its program in the public "
+            "worlds. verdict: the verdict in each world; errors: also the errors, and what the referee measured in "
+            "the worlds in which it accepts the program; trace: also what each step did. Default: verdict; with "
+            "--try: errors."
         ),
     ] = None,
     rounds: Annotated[
@@ -129,8 +130,8 @@ def bench_agents(
 ) -> int:
     """Score programs that agents write, in worlds that the agents have not seen; silent failures count twice.
 
-    The score of a task is (accepted - 2 silent) / worlds. Exit code 0: no silent failure; 1: --check found a task that
-    is not right; 3: a silent failure; 2: bad input; 130: interrupted.
+    The score of a task is (accepted - 2 silent) / worlds. Exit code 0: no silent failure; 1: --check found a mistake
+    in a task; 3: a silent failure; 2: bad input; 130: interrupted.
     """
     from handeye.agents.bench_entrant import Entrant
     from handeye.agents.bench_page import PAGE, bench_page

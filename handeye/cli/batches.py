@@ -94,7 +94,7 @@ def assembly_trials(
     from handeye.trials.sweep import Case
 
     if options.tables is not None and options.folder is None:
-        raise BadArgument("--tables needs --out, the folder to write them to")
+        raise BadArgument("--tables needs --out: the tables are written to this folder")
     if scheduler is not None and engine != "dask":
         raise BadArgument("--scheduler needs --engine dask")
     chosen = seeds_of(n, seed, seeds, usual=COUNT)
@@ -221,8 +221,9 @@ def compare_trials(
     error of the world, changes the success rate.
 
     All batches must be of the same kind. Each comparison counts only the trials that are in both of its batches. `p`
-    is the p-value of McNemar's exact test: if neither batch is better, the probability that the pairs with different
-    outcomes divide at least as unequally as they did.
+    is the p-value of McNemar's exact test. The test looks at the trials that succeeded in only one of the two batches.
+    If neither batch is better, `p` is the probability that chance divides these trials at least as unequally between
+    the two batches as they are divided here.
     """
     from handeye.trials.comparing import paired
     from handeye.trials.folder import read_batch

@@ -1,4 +1,4 @@
-"""Commands of the benches: the table of stage times next to the times of 1973, and insertion."""
+"""Commands of the benches. One compares the times of the stages with those of 1973, the other inserts pins."""
 
 import time
 from typing import TYPE_CHECKING, Annotated, Final, Literal
@@ -89,8 +89,8 @@ def insertion(
 
     The arm, hand and servo are the same as in the pump's cell. The plate has one hole, which is displaced along each
     axis by a normally distributed error. As with the pump, worlds differ in the errors of arm and hand. A trial begins
-    with the pin held over the hole. Without --clearance, --chamfer and --sd, the command tries a grid of conditions
-    around the condition of a published benchmark. This takes some minutes.
+    with the pin held over the hole. Without --clearance, --chamfer and --sd, the command tries several conditions:
+    that of a published benchmark, and conditions that differ from it in one value. This takes some minutes.
 
     Peak force is the greatest force between pin and plate in any physics step, from the simulator's ground truth; the
     program never sees this force. Ctrl-C stops the command and prints the trials that have finished.

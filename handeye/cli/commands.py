@@ -20,18 +20,18 @@ dismantle = dismantling:dismantle: Make the arm undo the steps of a run: take th
 show = reports:show: Show the result of a run, or its progress so far, without changing the run folder.
 report = reports:report: Write one self-contained HTML page of a run, or of two: 3D replay, pictures, forces, and what happened and why.
 video = videos:video: Make a video of a recorded run, without simulating it again.
-view = views:view: Step a run or teach positions in a browser, which shows the live cell. Or show a recorded run.
-compare = reports:compare: Compare two runs, step by step: the first difference, and where each run searched, felt and corrected.
+view = views:view: Step through a run or teach positions in a browser, which shows the live cell. Or show a recorded run.
+compare = reports:compare: Compare two runs, step by step: show the first difference, and how the searches, stops and corrections of the runs differ.
 do = teaching:do: Plan instructions and run them immediately, one after the other: `handeye do "OPEN 3" PARK`.
 repl = teaching:repl: Type instructions, which are checked and collected; DO runs them. HELP lists the commands.
 teach = teaching:teach: Move the arm and name positions; new names are added to the taught file, and the rest of the file is kept.
-check = scripts:check: Check a script and its taught positions, including the arm's reach; nothing moves.
+check = scripts:check: Check a script and its taught positions, and whether the arm reaches its goals; nothing moves.
 plan = scripts:plan: Compile a script into a plan.
 stages = scripts:stages: List the stages of a plan and their steps, with their source lines.
 fmt = editing:fmt: Format scripts in columns, like a listing of 1973; comments are kept.
 explain = editing:explain: Explain a diagnostic code, an error number or an instruction; without an argument, list the codes.
 docs = docs:docs: List the pages of the documentation, or print one.
-exercise = exercises:exercise: List the exercises of the course, show one of them, or grade a program. A grade is a verdict over all worlds, with hints.
+exercise = exercises:exercise: List the exercises of the course, show one of them, or grade a program. A grade says in which worlds the program is right, and gives hints.
 lsp = editing:lsp: Serve an editor over standard input and output (language server protocol).
 mcp = agents:mcp: Serve an agent (model context protocol over standard input and output): twelve tools to write and judge programs.
 export: Export a world, or the state of a run, to other programs.
@@ -44,9 +44,9 @@ diff = scripts:diff: Compare what two plans do, step by step.
 schema = scripts:schema: Print the JSON schema of the plan format.
 trace: Read the traces of runs.
 trace show = traces:show: Show what happened in a run, and why.
-trace stats = traces:stats: Count what happened in a run, stage by stage, and show how long it took.
+trace stats = traces:stats: For each stage of a run, count what happened, and show how long the stage took.
 trace photograph = traces:photograph: Photograph the cell at a moment of a recorded run, without simulating it again.
-trace verify = traces:verify: Repeat a recorded run and compare the two.
+trace verify = traces:verify: Repeat a recorded run, and compare the repetition with the recording.
 trace thin = exports:thin: Shrink a trace to about a tenth of its size, for sharing; the smaller trace keeps the motion that is needed to show the run.
 trace plot = exports:plot: Plot joints, hand force and events of a run against time; needs the extra `plot` (matplotlib).
 trace export: Write joints, forces and events of a run as tables.
@@ -83,7 +83,7 @@ sentence of the command's docstring; a group of commands has no function. The mo
 class _Command(CommandSpec):
     def resolve(self, parent_app: App) -> App:
         """Import the command. The docstring of the command is its help. A list of commands shows the sentence in the
-        table instead, so it does not have to import the commands.
+        table `COMMANDS` instead of the docstring, so the commands need not be imported for the list.
         """
         self.help = None
         restore_docstring(loaded(self.import_path, "the command at "))
@@ -91,8 +91,8 @@ class _Command(CommandSpec):
 
 
 def restore_docstring(command: object) -> None:
-    """Restore the docstring of a command from its source, because the docstring is the help and Python -OO drops
-    it.
+    """Restore the docstring of a command from its source, because this docstring is the text for --help, and Python
+    -OO drops docstrings.
     """
     if isinstance(command, App):
         for part in (command.default_command, *command._commands.values()):

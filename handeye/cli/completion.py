@@ -19,7 +19,7 @@ CONDITION: Final[dict[Shell, str]] = {"zsh": ", if its .zshrc calls compinit"}
 
 
 def register(app: App) -> None:
-    """Add the command that installs completion to the command line."""
+    """Give the command line a command that installs completion."""
 
     def install_completion(
         shell: Annotated[

@@ -61,7 +61,9 @@ def demo(
 
 
 def opened(page: Path) -> bool:
-    """Open a page in a graphical browser; False if there is none. The variable BROWSER can name the browser."""
+    """Open a page in a graphical browser. Returns False if there is no such browser. The environment variable BROWSER,
+    if set, selects the browser.
+    """
     import webbrowser
 
     named = os.environ.get("BROWSER")

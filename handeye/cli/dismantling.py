@@ -90,7 +90,9 @@ def _newest(path: Path) -> "Checkpoint":
         return start
     more = done_since(start, events)
     if more is None:
-        note(f"left out: {path / EVENTS}, which does not belong to the run of the checkpoints in {path}")
+        note(
+            f"left out: {path / EVENTS}; these events and the checkpoints in {path} belong to different runs"
+        )
     elif more:
         note(f"repeating {counted(more, 'step')} that came after the last checkpoint in {path}")
     return caught_up(start, events, str(path))

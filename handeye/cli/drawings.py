@@ -1,4 +1,4 @@
-"""Writes texts and drawings of a flow to a file, or to standard output."""
+"""Writes the flow of control of a program, as text or as a drawing, to a file or to standard output."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING, Final, Literal

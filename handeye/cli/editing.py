@@ -1,4 +1,4 @@
-"""Commands for writing scripts: format, explain, serve an editor."""
+"""Commands for writing scripts. They format a script, explain an instruction or an error, and serve an editor."""
 
 import sys
 from pathlib import Path

@@ -28,7 +28,7 @@ def exercise(
     start: Annotated[
         bool,
         Parameter(
-            help="Write the program from which you start, and its taught positions, into the current folder."
+            help="Write the exercise's starting program and its taught positions into the current folder."
         ),
     ] = False,
     overwrite: Overwrite = False,
@@ -45,8 +45,8 @@ def exercise(
     jobs: Annotated[WholeNumber, Parameter(help="Number of processes that work at the same time.")] = 2,
     json: Json = False,
 ) -> int:
-    """List the exercises of the course, show one of them, or grade a program. A grade is a verdict over all worlds,
-    with hints.
+    """List the exercises of the course, show one of them, or grade a program. A grade says in which worlds the program
+    is right, and gives hints.
 
     ```
     handeye exercise
@@ -75,7 +75,9 @@ def exercise(
         return _begin(chosen, overwrite=overwrite, json=json)
     if file is None:
         if seed is not None or first_seed is not None:
-            raise BadArgument(f"{'--first-seed' if seed is None else '--seed'} needs your program")
+            raise BadArgument(
+                f"{'--first-seed' if seed is None else '--seed'} needs the file of your program"
+            )
         return _describe(chosen, json=json)
     if first_seed is not None:
         chosen = _elsewhere(chosen, first_seed)
@@ -168,8 +170,8 @@ def _grade(chosen: "Exercise", file: Path, seed: int | None, jobs: int, *, json:
 
 
 def _elsewhere(chosen: "Exercise", first: int) -> "Exercise":
-    """Return the exercise in worlds whose seeds begin with `first`. Raises BadArgument if the exercise has no worlds,
-    or if a seed is not valid.
+    """Return the exercise with other worlds, whose smallest seed is `first`. Raises BadArgument if the exercise has no
+    worlds, or if a seed is not valid.
     """
     from handeye.core.variation import checked_seed
 

@@ -101,8 +101,7 @@ def _exhibit(run: Path | None, world: WorldOptions) -> "ExportedState":
         return initial_state(world.spec, world.work.name)
     if world.chosen:
         raise BadArgument(
-            f"{run} brings its own world; --seed, --level, --without, --set and --scale cannot be given "
-            "with it"
+            f"{run} has its own world; --seed, --level, --without, --set and --scale cannot be given with it"
         )
     exhibit, faults = kept_state(run)
     check_task(wanted, exhibit.task, run)

@@ -44,7 +44,8 @@ def faults(
         WholeNumber | None,
         Parameter(
             name="--n",
-            help="Number of worlds; their seeds count up from --seed. Each fault is tried in each world. Default: 1.",
+            help="Number of worlds. Their seeds are consecutive and begin with --seed. Each fault is tried in each "
+            "world. Default: 1.",
         ),
     ] = None,
     seeds: Seeds = None,
@@ -52,8 +53,8 @@ def faults(
         Path | None,
         Parameter(
             help="Folder that keeps, for each world, one run without faults; a missing run is made first. If a "
-            "fault begins at a later stage, its run starts there, from a checkpoint of the run without faults. "
-            "Default: each fault is tried in a whole run. The outcomes are the same with and without this folder."
+            "fault begins after the first stage, its trial starts at the stage of the fault, from a checkpoint of "
+            "this run. Default: each trial is a whole run. The outcomes are the same with and without this folder."
         ),
     ] = None,
     world: WorldOptions = ANY_WORLD,

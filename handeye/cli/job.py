@@ -284,7 +284,7 @@ class _Work:
 
     @contextmanager
     def _waiting(self) -> Iterator[None]:
-        """While the context is open, the user is asked for a line: the progress bar is hidden, and Ctrl-C
+        """A context in which the user is asked for a line. In this context, the progress bar is hidden, and Ctrl-C
         interrupts as usual.
         """
         with self.panic.aside(), self.progress.aside():
@@ -293,7 +293,9 @@ class _Work:
             self.panic()  # Ctrl-C that was pressed while nothing moved must not stop the next motion
 
     def _kept(self, position: int) -> Checkpoint | None:
-        """The newest state of this run on disk with at most `position` steps done; None if there is none."""
+        """Return the newest state of this run on disk after at most `position` steps, or None if there is no such
+        state.
+        """
         if self.folder is not None:
             return self.folder.kept.at_or_before(position)
         if self.job.checkpoints is None:

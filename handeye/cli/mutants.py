@@ -31,7 +31,8 @@ def mutant_trials(
     most: Annotated[
         WholeNumber,
         Parameter(
-            help="Greatest number of faults with which a mutant is run; 0: prove only, and run nothing."
+            help="Run each mutant with at most this number of faults, one fault in each run; 0: only prove, and run "
+            "nothing."
         ),
     ] = 5,
     checkpoints: Annotated[
@@ -65,7 +66,9 @@ def mutant_trials(
         raise BadArgument(f"--most must be 0 or more, not {most}")
     work, spec, camera = planned(world.work), world.spec, camera_here(camera)
     if not work.obligations(spec):
-        raise Refused(f"the task {quoted(work.name)} declares no obligations, so no mutant can be proved")
+        raise Refused(
+            f"the task {quoted(work.name)} declares no obligations, so there is nothing to prove about a mutant"
+        )
     if most and checkpoints is None and not listed:
         raise BadArgument("the runs need --checkpoints DIR; with --most 0, there are only proofs and no runs")
     plan = plan_or_own(None, world.task)

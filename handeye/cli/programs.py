@@ -1,4 +1,6 @@
-"""Scripts and plans as commands name them: by file, or by the name of an included program."""
+"""Finds the script or plan that an argument of a command names. The argument is a file, or the name of an included
+program.
+"""
 
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
@@ -84,8 +86,8 @@ def is_program(given: Path) -> bool:
 
 
 def _program(given: Path) -> "tuple[Path, Task] | None":
-    """Return the program that has the name `given`, or None if `given` is a path. Raises NoSuchName if `given` can
-    only be a name, and no program has this name.
+    """Return the program that has the name `given`, or None if `given` is a path. Raises NoSuchName if there is
+    neither a program nor a file of this name.
     """
     if not _is_name(given):
         return None

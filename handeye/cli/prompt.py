@@ -52,7 +52,9 @@ def typed_lines(
 
 
 def typed_already() -> str | None:
-    """A line typed at the terminal before the prompt; None if there is none, or if this cannot be determined."""
+    """A line typed at the terminal before the prompt; None if no line was typed, or if the terminal does not show
+    whether one was.
+    """
     if sys.platform == "win32":
         return None
     if not select.select([sys.stdin], [], [], 0)[0]:
@@ -90,8 +92,8 @@ class PipedLines:
         return line
 
     def _read(self, file: int) -> None:
-        """Read lines without the buffer of `sys.stdin`, because an interpreter that exits would wait for the
-        buffer's lock.
+        """Read lines without the buffer of `sys.stdin`. If this thread held the lock of the buffer, Python would wait
+        for the lock at exit.
         """
         rest = b""
         while more := os.read(file, 65536):

@@ -52,7 +52,7 @@ class ProofOptions:
 
 
 def refuse_with_prove(*, strict: bool, watch: bool) -> None:
-    """Raise BadArgument if another form of the check is asked for together with the proof."""
+    """Raise BadArgument if the user asks for a proof and also for another check, `--strict-1973` or `--watch`."""
     if strict or watch:
         raise BadArgument(f"--prove and {'--strict-1973' if strict else '--watch'} cannot be given together")
 

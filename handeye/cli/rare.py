@@ -211,10 +211,11 @@ ANY_SAMPLE: Final = SampleOptions()
 def rare_trials(*, options: SampleOptions = ANY_SAMPLE) -> int:
     """Estimate how rarely a program stops, and how rarely it fails silently, by subset simulation.
 
-    The worlds of the first level are made from seeds. In a tenth of the worlds of each level, the program comes
-    closest to failing. The next level is a sample of worlds in which the program comes at least as close to failing as
-    in this tenth. The product of the shares of all levels estimates the probability of the failure; the product is not
-    a bound. Only a run in a world decides whether the program fails there.
+    The worlds of the first level are made from seeds. From each level, the search takes the tenth of the worlds in
+    which the program comes closest to failing. The next level is a sample of worlds in which the program comes at
+    least this close to failing. The estimate of the probability is a product: one tenth for each level except the
+    last, times the fraction of worlds of the last level in which the program fails. The product is not a bound. Only a
+    run in a world decides whether the program fails there.
 
     Exit code 0: no silent failure; 3: in some world, the program reported success but the referee disagreed; 2: bad
     input; 130: interrupted.
@@ -249,8 +250,8 @@ def worst_trials(
         WholeNumber,
         Parameter(
             help=(
-                "Number of searches for failing worlds that are nearer still. Each search starts from one of the "
-                "nearest failing worlds found so far."
+                "Number of further searches, for failing worlds with even smaller errors. Each search starts from "
+                "one of the nearest failing worlds found so far."
             )
         ),
     ] = 5,
@@ -262,7 +263,7 @@ def worst_trials(
     """Find the failing worlds whose errors are smallest, and the quantities that make the program fail.
 
     The levels are those of `trials rare`, so this command can continue the work in a folder that `trials rare` wrote.
-    In each of the nearest failing worlds, the command then returns the quantities to the middle of their ranges,
+    In each of the nearest failing worlds, the command then sets the quantities back to the middle of their ranges,
     except those whose deviation is needed for the failure.
 
     Exit code 0: no silent failure; 3: in some world, the program reported success but the referee disagreed; 2: bad

@@ -45,7 +45,7 @@ def in_world_of(path: Path, plan: Plan, *, judged: bool) -> Setup:
 
 
 def _events(path: Path) -> tuple[AnyEvent, ...]:
-    """The events of a run, from its event list if there is one, because the list is shorter than the trace."""
+    """Return the events of a run. Reads the run's event list if there is one: the list is shorter than the trace."""
     file = path / EVENTS if (path / EVENTS).is_file() else trace_file(path)
     if file.suffix == ".jsonl":
         return tuple(read_events(file, growing=True))
@@ -53,7 +53,7 @@ def _events(path: Path) -> tuple[AnyEvent, ...]:
 
 
 def _check_drawing(path: Path, begun: RunStarted) -> None:
-    """Raises InvalidInput if the seed of the run gives a different world in this version."""
+    """Raises InvalidInput if, in this version of handeye, the seed of the run does not give the recorded world."""
     world = begun.world
     if world.drawing != DRAWING:
         raise Refused(

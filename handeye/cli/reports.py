@@ -59,7 +59,7 @@ def report(
     made_known(task)
     replaced = ""
     if demo and run is not None:
-        raise BadArgument("--demo brings its own run; give either a run or --demo")
+        raise BadArgument("--demo has its own run; give either a run or --demo")
     if demo:
         place = output or Path(DEMO)
         replaced = "; the earlier file is replaced" if place.exists() else ""
@@ -147,7 +147,8 @@ def compare(
     overwrite: Overwrite = False,
     json: Json = False,
 ) -> int:
-    """Compare two runs, step by step: the first difference, and where each run searched, felt and corrected.
+    """Compare two runs, step by step: show the first difference, and how the searches, stops and corrections of the
+    runs differ.
 
     Runs of different plans, scenes or worlds are compared as far as possible. Exit code 0: compared, whatever the
     difference; 2: bad input.

@@ -39,7 +39,9 @@ def check_order(listing: "Listing", first: str | None, last: str | None) -> None
     stages = listing.stages
     begin, end = stages[stage_number(first, listing)], stages[stage_number(last, listing)]
     if stages.index(end) < stages.index(begin):
-        raise BadArgument(f"the run would begin with “{begin}”, which comes after its last stage, “{end}”")
+        raise BadArgument(
+            f"the run would begin with the stage “{begin}” and end with an earlier stage, “{end}”"
+        )
 
 
 def check_ahead(start: "Checkpoint", stops: list["AnyStop"], breaks: list[str]) -> None:
@@ -71,7 +73,7 @@ def checkpoint_folder(checkpoints: Path | None, out: Path | None) -> Path | None
 
 
 def at_stage(start: "Checkpoint", name: str, kept: Path | None, out: Path | None) -> "Checkpoint":
-    """The checkpoint from which the fewest steps lead to a stage."""
+    """The last checkpoint from which a run reaches a stage; `start` if there is no such checkpoint."""
     from handeye.debugger.breakpoints import stage_number
     from handeye.runs.checkpoint_store import CheckpointStore
     from handeye.runs.folder import EVENTS

@@ -106,8 +106,8 @@ def assemble(
     check_kept(no_keep, out)
     if report and no_keep:
         raise BadArgument(
-            "--report writes a page into the folder of the run, but with --no-keep "
-            "there is no folder; leave out one of them"
+            "--report writes a page into the folder of the run, but with --no-keep there is no folder; leave out "
+            "one of these two options"
         )
     world.check()
     started = time.process_time()
@@ -206,7 +206,7 @@ def run(
         setup = Setup(plan=plan, world=spec, camera=camera, judged=judge, without=spared)
     elif wanted.chosen or fault or camera != "auto":
         others = "--seed, --world, --level, --without, --set, --scale, --fault and --camera"
-        raise BadArgument(f"{world_of} brings its own world; {others} cannot be given with --world-of")
+        raise BadArgument(f"{world_of} has its own world; {others} cannot be given with --world-of")
     else:
         setup = in_world_of(world_of, plan, judged=judge)
     start = Checkpoint(setup=setup)

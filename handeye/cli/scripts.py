@@ -60,13 +60,13 @@ def check(
         bool,
         Parameter(
             group=PROOF,
-            help="Also prove, for each finding of the task's referee, that the program would notice if the finding "
-            "did not hold, whatever path the program takes to its end. FILE may also be a plan.",
+            help="Also prove, for each finding of the task's referee: on every path to its end, the program would "
+            "notice if the finding did not hold. FILE may also be a plan.",
         ),
     ] = False,
     proof: ProofOptions | None = None,
 ) -> int:
-    """Check a script and its taught positions, including the arm's reach; nothing moves.
+    """Check a script and its taught positions, and whether the arm reaches its goals; nothing moves.
 
     Exit code 0: no errors; 2: errors, or bad input. With --watch, Ctrl-C ends the command with the exit code of the
     last check.
@@ -168,9 +168,9 @@ def plan(
     Parameters
     ----------
     output
-        File for the plan. Default: next to the script, with the ending .plan.json; for a program given by name, in
-        the current folder. An earlier plan at the default place is replaced; to replace another file, give
-        --overwrite.
+        File for the plan. By default, the file is next to the script, or in the current folder if you name a program of
+        handeye; its ending is .plan.json. An earlier plan at the default place is replaced; to replace another file,
+        give --overwrite.
     """
     script, work = script_at(file, task)
     target = output or beside(file, ".plan.json")

@@ -1,5 +1,5 @@
-"""Parts common to all commands that run a sweep, a series of trials: options, progress, the folder, and the summary
-at the end.
+"""Parts common to all commands that run a sweep: options, progress, the folder, and the summary at the end. A sweep is
+a series of trials.
 """
 
 from collections.abc import Callable, Mapping, Sequence
@@ -69,7 +69,7 @@ class SweepOptions:
 
         positive(self.jobs, "process")
         if self.tables is not None and self.folder is None:
-            raise BadArgument("--tables needs --out, the folder to write them to")
+            raise BadArgument("--tables needs --out: the tables are written to this folder")
         if self.out is None:
             return
         if self.folder is None:
@@ -164,7 +164,7 @@ def _tell(
     more: Mapping[str, object],
     camera: str,
 ) -> None:
-    """Write page and tables, and print the figures."""
+    """Write the page and the tables of a batch, and print its figures."""
     from handeye.trace.tables import csv_bytes, write_tables
     from handeye.trials.page import PAGE, sweep_page
     from handeye.trials.tables import ROWS as TABLE

@@ -51,7 +51,9 @@ class Tally:
         self._bar.stop()
 
     def counting(self, trials: Iterable[T], tell: Callable[[T], None] | None = None) -> Iterator[T]:
-        """Trials as they end; each is passed to `tell`, if given, and then counted."""
+        """Yield the trials as they end. If there is a function `tell`, it receives each trial before the trial is
+        counted.
+        """
         with self:
             for trial in trials:
                 yield trial

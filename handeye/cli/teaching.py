@@ -67,8 +67,8 @@ class CellOptions:
 
         if self.first is not None and (self.world.chosen or self.fault):
             raise BadArgument(
-                f"{self.first} brings its own world; --seed, --level, --without, --set, --scale and --fault cannot "
-                "be given with --from"
+                f"{self.first} has its own world; --seed, --level, --without, --set, --scale and --fault cannot be "
+                "given with --from"
             )
         if self.first is not None:
             return Workplace.at(read_checkpoint(self.first), taught, panic, observers)
@@ -143,7 +143,7 @@ def repl(
     Parameters
     ----------
     script
-        A script, with its taught file and the programs for `DO NAME` next to it.
+        A script. handeye uses the taught file next to it; `DO NAME` looks for the program NAME in the same folder.
     """
     from handeye.al.instructions import INSTRUCTIONS
     from handeye.teaching.answers import converse

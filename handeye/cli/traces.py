@@ -53,7 +53,7 @@ def show(
 
 
 def stats(run: RunOrEvents = None, /, *, json: Json = False) -> int:
-    """Count what happened in a run, stage by stage, and show how long it took."""
+    """For each stage of a run, count what happened, and show how long the stage took."""
     from handeye.trace.stats import statistics, statistics_table
 
     trace, events = _read(run_or_newest(run))
@@ -98,7 +98,7 @@ def photograph(
 
 
 def verify(run: RunOrTrace = None, /, *, task: TaskWords = None) -> int:
-    """Repeat a recorded run and compare the two.
+    """Repeat a recorded run, and compare the repetition with the recording.
 
     The actions of operators and experimenters are repeated as well. An interrupted run is compared up to its last
     complete step. There are three answers: the run repeats exactly; it repeats except for rounding in the last digits,
@@ -131,7 +131,7 @@ def verify(run: RunOrTrace = None, /, *, task: TaskWords = None) -> int:
         say(f"{file} does not repeat{elsewhere}: {found.parts}")
         if found.rounded is not None:
             say(
-                "before that, numbers differ only by rounding, as they do between kinds of processors; the first "
+                "before that, numbers differ only by rounding, which depends on the kind of processor; the first "
                 f"difference: {found.rounded}"
             )
         return 1

@@ -31,7 +31,10 @@ if TYPE_CHECKING:
 
 Worldly = Annotated[
     WholeNumber,
-    Parameter(name="--n", help="Number of worlds for each disturbance; their seeds count up from --seed."),
+    Parameter(
+        name="--n",
+        help=("Number of worlds for each disturbance. Their seeds are consecutive and begin with --seed."),
+    ),
 ]
 
 
@@ -188,7 +191,12 @@ def chaos_trials(
     seed: FirstSeed = 0,
     worlds: Annotated[
         WholeNumber,
-        Parameter(help="Number of worlds. The levels of their errors are nominal, low and high in turn."),
+        Parameter(
+            help=(
+                "Number of worlds. The first world has nominal errors, the second low errors, the third high errors, "
+                "the fourth nominal errors, and so on."
+            )
+        ),
     ] = 3,
     schedule: Annotated[
         list[str] | None,
@@ -218,10 +226,11 @@ def chaos_trials(
     The checks: the program never reports success with a wrong pump (`silent`); trace, events and state are the same to
     the byte as without interruptions (`resume`); the brakes are on after every stop (`brakes`); the trace can be read
     and says what happened (`trace`); nothing is lost on disk (`disk`); and no exception is raised (`error`). If a
-    schedule fails, the trial shortens the schedule step by step, as long as the shorter schedule still fails. The
-    trial then prints the shortest failing schedule as a command. If a fault spoiled a part of the pump only after the
-    program's last look at this part, the schedule is `unseen` instead of silent. Before the schedules, the command
-    makes one complete run in each world. A complete run takes one CPU minute, and a schedule takes some seconds.
+    schedule fails, the trial removes its elements one by one, and keeps only those without which the schedule does not
+    fail. The trial then prints this shortest failing schedule as a command. If a fault spoiled a part of the pump only
+    after the program's last look at this part, the schedule is `unseen` instead of silent. Before the schedules, the
+    command makes one complete run in each world. A complete run takes one CPU minute, and a schedule takes some
+    seconds.
 
     Exit code 0: all checks passed; 3: a check failed; 2: bad input; 130: interrupted.
     """

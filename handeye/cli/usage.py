@@ -1,4 +1,4 @@
-"""Makes one sentence of each mistake in a command line, from what the parser reports."""
+"""Describes each mistake in a command line in one sentence, made from the report of the parser."""
 
 from collections.abc import Iterable
 from typing import Final, Literal, get_args, get_origin
@@ -63,7 +63,7 @@ def _fault(error: CycloptsError, command: str) -> str:
 
 
 def _options(error: CycloptsError) -> set[str]:
-    """The options of the command in which the mistake is."""
+    """Return the options of the command that contains the mistake."""
     if error.app is None or error.app.default_command is None:
         return set()
     return {name for each in error.app.assemble_argument_collection() for name in each.names}

@@ -53,7 +53,7 @@ def view(
     out: Out = None,
     overwrite: Overwrite = False,
 ) -> int:
-    """Step a run or teach positions in a browser, which shows the live cell. Or show a recorded run.
+    """Step through a run or teach positions in a browser, which shows the live cell. Or show a recorded run.
 
     Prints the address to open, which contains a secret and works on this computer only. Several pages can show the
     run, but only one page controls the run; the other pages neither change nor slow the run. The exit codes are those
@@ -68,7 +68,7 @@ def view(
     from handeye.view.server import Server
 
     if demo and file is not None:
-        raise BadArgument("--demo brings its own program; give either a plan or --demo")
+        raise BadArgument("--demo has its own program; give either a plan or --demo")
     if teach is not None:
         if demo or file is not None or out is not None or overwrite:
             raise BadArgument("--teach runs no plan and saves no run; leave out the plan, --demo and --out")
@@ -80,7 +80,10 @@ def view(
         return _play(file, port)
     untold = not (demo or world.chosen or world.task or fault or camera != "auto" or out is not None)
     if file is None and untold and (newest := newest_run()) is not None:
-        note(f"showing the newest run, {newest}; `handeye view water_pump` steps a new run")
+        note(
+            f"showing the newest run, {newest}; `handeye view water_pump` begins a new run, to go through step by "
+            "step"
+        )
         return _play(newest, port)
     link = Link()
     with Server(link, port) as server:

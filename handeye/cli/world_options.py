@@ -40,7 +40,7 @@ Faults = Annotated[
 @Parameter(name="*", group=WORLD)
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ErrorOptions:
-    """The task of a world, which errors the world has, and how large they are."""
+    """Options that choose the task of a world, its errors, and the sizes of the errors."""
 
     task: TaskWords = None
     level: Annotated[
@@ -82,8 +82,8 @@ class ErrorOptions:
         return any_task(DEFAULT) if self.task is None else named(self.task)
 
     def of(self, name: str) -> Self:
-        """These options, with the task that a plan or run records instead of their own. The method imports no task
-        module.
+        """A copy of these options for the task called `name`, which a plan or a run records. The method imports no
+        task module.
         """
         return replace(self, task=any_task(name).name)
 
@@ -188,7 +188,7 @@ class WorldOptions:
         return replace(self, errors=replace(self.errors, task=None)) != ANY_WORLD
 
     def of(self, name: str) -> Self:
-        """These options, with the task called `name` instead of their own."""
+        """A copy of these options for the task called `name`."""
         return replace(self, errors=self.errors.of(name))
 
     @property
@@ -210,7 +210,9 @@ class WorldOptions:
             replace(self, errors=replace(self.errors, without=None))._spec_of(self.file)
 
     def _spec_of(self, path: Path) -> WorldSpec:
-        """The world in a file; raises InvalidInput if it does not fit the task, or if other options choose a world."""
+        """The world in a file; raises InvalidInput if this world does not fit the task, or if other options choose a
+        world.
+        """
         given, errors = read_world(path), self.errors
         if self.seed is not None or replace(errors, task=None) != ErrorOptions():
             raise BadArgument(

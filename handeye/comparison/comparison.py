@@ -35,7 +35,7 @@ class Condition(Record, frozen=True, kw_only=True):
 
     what: str
     """Name of the condition: `task`, `plan`, `arm`, `camera`, a setting of the world such as `seed`, a quantity that
-    was set, `version of ...`, or `own ...`.
+    the user set, `version of ...`, or `own ...`.
     """
     a: str
     b: str

@@ -39,7 +39,9 @@ class Corrections(Record, frozen=True, kw_only=True):
 
     @property
     def alike(self) -> bool:
-        """True if the two corrections differ too little to be reported, or if only one correction was made."""
+        """True if the two corrections differ too little to be reported, or if they cannot be compared because one is
+        missing.
+        """
         return self.apart is None or self.apart <= ASTRAY
 
 

@@ -120,7 +120,7 @@ def _own(name: str) -> str:
 
 
 SIDES: Final = (("A", "a"), ("B", "b"))
-"""Letters of the runs, for display and in the names of HTML elements."""
+"""The letter of each run, as the page shows it and as it stands in the names of HTML elements."""
 _SPEEDS: Final = (1, 4, 16, 64)
 _USUAL: Final = 4
 

@@ -54,7 +54,7 @@ VERBS: Final[Mapping[Capability, str]] = {
     "format": "format its scripts",
     "console": "accept typed lines",
     "python": "continue its runs from Python",
-    "leg": "do a leg of a relay",
+    "leg": "run a leg of a relay",
 }  # capabilities of a system, as words after `cannot`
 
 
@@ -73,7 +73,8 @@ class Entry(Record, frozen=True, kw_only=True):
     sweeps: dict[str, str] = field(default_factory=dict)  # `module:NAME` of a `Sweep`, by kind
     faults: str = ""
     """`module:NAME` of a function that takes a task's name and a world. The function returns the kind of the sweep,
-    and the work that `handeye faults` does for each fault. Empty if the system has no such trials.
+    and the work that `handeye faults` does for each fault. `faults` is empty if `handeye faults` cannot test programs
+    of the system.
     """
     programs: str = ""
     """`module:NAME` of a function that returns the plan with which a program does a task. The function takes the name
@@ -89,7 +90,7 @@ class Entry(Record, frozen=True, kw_only=True):
     events: str = ""  # `module:NAME` of a tuple: the kinds of events that only this system has
     languages: dict[str, str] = field(default_factory=dict)  # `OwnLanguage` by file ending
     leg: str = (
-        ""  # `module:NAME` of the `handeye.runs.legs.LegSystem` of a system that can do a leg of a relay
+        ""  # `module:NAME` of the `handeye.runs.legs.LegSystem` of a system that can run a leg of a relay
     )
     environments: dict[str, str] = field(default_factory=dict)
     """The Gymnasium environments of the system. The key is the id of an environment, and the value is the

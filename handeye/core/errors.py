@@ -117,7 +117,7 @@ ERRORS: Final[dict[int, str]] = {
     FEATURES_NOT_SEEN: "the holes of the part are not found in the picture",
     GASKET_WRONG: "the gasket is not in place",
     PART_ASTRAY: "the part has moved since the earlier picture",
-    SWITCH_WRONG: "a finger switch does not show whether its finger touches anything, or the fingers press too weakly",
+    SWITCH_WRONG: "the fingers press too weakly, or a finger switch does not show whether its finger touches anything",
     GAP_WRONG: (
         "the finger gap differs from the commanded gap: the potentiometer of the fingers fails, something holds or "
         "forces the fingers, or the held part has slipped"

@@ -89,7 +89,7 @@ class FaultKind:
     size: Size | None = None  # None if the fault has no size
     when: Literal["before", "during", "later"] = "during"
     """`before` if the fault can only be present from the start of the run. `during` if the fault can be present from
-    the start or begin at a stage. `later` if the fault can be present from the start or begin after a time.
+    the start or begin at a stage. `later` if the fault can be present from the start or begin after a given time.
     """
     usual_stage: int | None = None  # stage at which the fault begins by default, from 1; None for the start
     expected: ExpectedDetection = UNKNOWN

@@ -52,7 +52,7 @@ def _inflated(data: bytes, largest: int) -> bytes:
     inflater = zlib.decompressobj()
     inflated = inflater.decompress(data, largest)
     if inflater.unconsumed_tail or not inflater.eof:
-        raise ValueError("the saved state is too large or incomplete")
+        raise ValueError("the saved state is incomplete or too large")
     return inflated
 
 

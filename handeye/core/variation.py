@@ -39,7 +39,7 @@ _LONG: Final = 10**40  # a number with more digits is not quoted in a message
 _NAMED: Final = 8  # if more quantities than this are set, a message gives only their number
 
 UNSOURCED: Final = "unsourced"
-"""In a scale, this name stands for all quantities whose size has no source."""
+"""Name that stands for all quantities whose size has no source, as a key of `Overrides.scale`."""
 
 Level = Literal["low", "nominal", "high"]
 SPREADS: Final[dict[Level, float]] = {"low": 0.5, "nominal": 1.0, "high": 2.0}  # factors on errors
@@ -93,8 +93,8 @@ class Overrides(Record, frozen=True, kw_only=True):
     without: tuple[str, ...] = ()  # quantities and groups at nominal values, sorted
     set: dict[str, float] = msgspec.field(default_factory=dict)  # values, SI; take precedence over `without`
     scale: dict[str, float] = msgspec.field(default_factory=dict)
-    """Factors on errors, in addition to the factor of the level, by name of a quantity or group, or `UNSOURCED`.
-    If several names cover an error, the most specific name applies.
+    """Factors that multiply errors, in addition to the factor of the level. Each key is the name of a quantity or
+    group, or `UNSOURCED`. If several names cover an error, the most specific name applies.
     """
 
 

@@ -32,8 +32,8 @@ def write_world(path: Path, file: WorldFile) -> None:
 
 
 def read_world(path: Path) -> WorldFile:
-    """Read a world from a file. Raises InvalidInput if the file holds no world. The function does not check whether
-    the task has these quantities; `Variation.check` does.
+    """Read a world from a file. Raises InvalidInput if the file holds no world. `Variation.check`, not this function,
+    checks that the task has the quantities that the file names.
     """
     try:
         file = msgspec.json.decode(read_whole(path, _LARGEST), type=WorldFile)

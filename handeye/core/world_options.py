@@ -150,7 +150,9 @@ def _value(kind: FaultKind, text: str) -> float | None:
 
 
 def by_number(text: str) -> int:
-    """Parse the number of a stage, counted from 1. This function serves where the names of the stages are not known."""
+    """Parse the number of a stage, counted from 1. Callers use this function if they do not know the names of the
+    stages.
+    """
     if not (text.isascii() and text.isdigit() and len(text) < 10 and int(text) > 0):
         raise BadArgument(f"{quoted(text)} is not the number of a stage; stages are numbered from 1")
     return int(text)

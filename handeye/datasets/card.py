@@ -22,7 +22,7 @@ _HEAD: Final = """configs:
 _BODY: Final = """
 ## What a frame contains
 
-There are {rate} frames a second. A frame belongs to a moment. `observation.*` is what the sensors read in the tenth of a second before
+There are {rate} frames a second. Each frame belongs to one moment. `observation.*` is what the sensors read in the tenth of a second before
 this moment, and `action` is what the arm did in the tenth of a second after it.
 
 | feature | content | unit |

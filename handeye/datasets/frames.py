@@ -1,8 +1,8 @@
 """Reduces a recorded run to frames, ten frames a second.
 
-A frame belongs to a moment. The observation of a frame is what the sensors read in the tenth of a second before this
-moment. The action of a frame is what the arm did in the tenth of a second after this moment. So the observation of a
-frame contains nothing that happened after the frame's action began.
+Each frame belongs to one moment. The observation of a frame is what the sensors read in the tenth of a second before
+this moment. The action of a frame is what the arm did in the tenth of a second after this moment. So the observation
+of a frame contains nothing that happened after the frame's action began.
 """
 
 from collections.abc import Iterable, Iterator

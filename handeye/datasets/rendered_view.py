@@ -1,6 +1,6 @@
 """Renders what a camera of the scene shows in each frame of a recorded run, from the recorded poses.
 
-No port of the robot gives this view. It shows the true places of the parts.
+No port of the robot gives this view, because the view shows the true places of the parts.
 """
 
 from collections.abc import Iterator

@@ -104,7 +104,7 @@ def _at_line(place: Place, listing: Listing) -> AnyStop:
     file, line = place
     lines = {i: step.line for i, step in enumerate(listing.steps) if step.file == file}
     if not lines:
-        raise BadArgument(f"no step is in {quoted(file or listing.name)}")
+        raise BadArgument(f"{quoted(file or listing.name)} contains no step")
     last = max(lines.values())
     if line > last:
         wanted, on = line_name(line, file), line_name(last, file)

@@ -29,7 +29,7 @@ def find(line: str) -> tuple[StepperCommand, str]:
         near = meant(word, [command.name for command in COMMANDS])
         if word.casefold() in _SYNONYMS:
             near = f"; did you mean {quoted(_SYNONYMS[word.casefold()])}?"
-        raise NoSuchName(f"there is no command {quoted(word)}{near or '; `help` lists them'}")
+        raise NoSuchName(f"there is no command {quoted(word)}{near or '; `help` lists the commands'}")
     check_bare(named, rest)
     return named[0], rest
 

@@ -34,8 +34,8 @@ class Pace(Observer):
     clock: Callable[[], float] = time.monotonic
     sleep: Callable[[float], None] = time.sleep
     _kept: tuple[float, float, float] | None = field(default=None, init=False)
-    """The factor that limits the pace, and the moment (s) at which it began to do so, on two clocks: first wall-clock
-    time, then cell time.
+    """The factor that limits the pace, and the moment (s) from which this factor applies. The moment is given twice:
+    in wall-clock time, then in cell time.
     """
 
     def __str__(self) -> str:

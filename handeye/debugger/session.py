@@ -38,7 +38,7 @@ class DebugSession:
     ) -> None:
         """Take control of a run. The run pauses at breakpoints and also at `stops`.
 
-        `kept` finds the newest checkpoint on disk at which at most a given number of steps were done. `keep` writes
+        `kept` finds the newest checkpoint on disk that was made after at most a given number of steps. `keep` writes
         a checkpoint, if the run stores checkpoints. `pictures` is the folder to which the last picture is
         written when the user asks for it.
         """
@@ -145,10 +145,10 @@ class DebugSession:
         if not runner.ended:
             return None
         if runner.trouble is not None:
-            return f"the run cannot continue from here; it can only go back: {runner.trouble}"
+            return f"the run can only go back, and cannot continue from here: {runner.trouble}"
         if runner.call is not None:
             given = ", ".join(f"`{word}`" for word in runner.kind.choices(runner))
-            return f"the program calls the operator: answer {given} or `abort`, go back, or `undo`"
+            return f"the program calls the operator: answer {given} or `abort`, or use `back` or `undo`"
         return "the program has ended: `back` goes back from here, `quit` leaves"
 
     def back_to(self, position: int) -> None:

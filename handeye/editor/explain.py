@@ -164,9 +164,9 @@ REMEDIES: Final[dict[int, Remedy]] = {
         'MOVE T\nSKIPN 5 ;the computer kept up\nWAIT "THE COMPUTER WAS LATE"\nMOVE P',
     ),
     errors.SEARCH_EXHAUSTED: Remedy(
-        "A search has 49 places, or the number of places that its STEPS give. If you do not test for this error, "
-        "the error calls the operator. This is usually right, because the hole is not where you search. To give up "
-        "sooner, count the places with SOJG.",
+        "A search has 49 places, or another number if the SEARCH has STEPS. If you do not test for this error, the "
+        "error calls the operator. A call is usually right here, because the hole is not where you search. To give "
+        "up sooner, count the places with SOJG.",
         "ASSIGN TRIES 9\nSEARCH .07\nL: MOVE T\nSTOP [0 0 -50]\nCHANGE [0 0 -1] .7\nSKIPN 23 ;it met something\n"
         'JUMP IN\nSOJG TRIES NEXT\nWAIT "NO HOLE HERE"\nNEXT: AOJ L\nIN: OPEN 1',
     ),
@@ -209,8 +209,9 @@ REMEDIES: Final[dict[int, Remedy]] = {
         'LOOK V\nGENERAL BASE V\nLOOK W\nSPECIFIC BASE W\nSKIPN 31 ;its holes are found\nWAIT "TURN THE BASE"\nMOVE P',
     ),
     errors.GASKET_WRONG: Remedy(
-        "A correctly placed gasket makes a certain difference between the picture before and the picture after it "
-        "was placed; these two pictures do not differ in that way. Place the gasket again, or ask the operator.",
+        "INSPECT compares a picture without the gasket and a picture with the gasket in place. The difference "
+        "between these two pictures is not the one that a correctly placed gasket makes. Place the gasket again, "
+        "or ask the operator.",
         "LOOK BEFORE HOLD\nMOVE P\nLOOK AFTER HOLD\nINSPECT BASE BEFORE AFTER\nSKIPN 32 ;it is on properly\n"
         'WAIT "CHECK THE GASKET"\nPARK',
     ),

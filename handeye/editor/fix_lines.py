@@ -98,8 +98,8 @@ def _behind_motion(document: Document, number: int) -> int | None:
 
 
 def drop_test(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
-    """Yield a fix that removes a SKIPE that tests an impossible error, because it never skips. A SKIPN of an
-    impossible error always skips. No fix is offered for it, because its purpose is unknown.
+    """Yield a fix that removes a SKIPE of an impossible error, because such a SKIPE never skips. A SKIPN of an
+    impossible error always skips. For such a SKIPN there is no fix, because we do not know what the user intended.
     """
     if word_of(line_of(document, diagnostic)) == "SKIPE":
         yield from remove_line(document, diagnostic)

@@ -22,7 +22,7 @@ def colon(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
     if isinstance(diagnostic.meant, MissingMark):
         span, mark = diagnostic.primary.span, diagnostic.meant.mark
         word = document.text[span.start : span.end]
-        yield insert(span.end, mark, f"make it the label {quoted(word + mark)}")
+        yield insert(span.end, mark, f"turn {quoted(word)} into the label {quoted(word + mark)}")
 
 
 def instruction_alone(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:

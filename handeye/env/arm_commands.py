@@ -13,7 +13,7 @@ from handeye.execution.drive import ArmDrive
 from handeye.execution.servo import ServoPeriod
 
 _STANDS: Final = 6
-"""Servo periods in which the brakes bring the arm to rest: .1 s, as when a program stops."""
+"""Number of servo periods (.1 s) that the brakes need to bring the arm to rest."""
 
 
 class ArmCommands:

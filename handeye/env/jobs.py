@@ -38,7 +38,9 @@ class Job(Record, frozen=True, kw_only=True):
     machine: str = "handeye.env.controlled_arm:ControlledArm"
     """`module:NAME` of the class of the job's machine, derived from `handeye.env.controls.ControlledMachine`."""
     policies: Mapping[str, str] = msgspec.field(default_factory=dict)
-    """The included policies that only this job has: for the name of each policy, the `module:NAME` of its maker."""
+    """The included policies that only this job has: for the name of each policy, the `module:NAME` of the class or
+    function that makes the policy.
+    """
     stages: tuple[int, ...] = (0,)
     """Numbers of the stages before which an episode may start; the first stage of the program is 0. If there are
     several numbers, the seed chooses one.
@@ -50,15 +52,14 @@ class Job(Record, frozen=True, kw_only=True):
     findings must hold.
     """
     limits: Mapping[str, float] = msgspec.field(default_factory=dict)
-    """Limits that replace limits of the referee, by finding. They allow for the part of the work that the job leaves
-    out.
+    """For some findings, limits that replace the referee's limits, because the job leaves out a part of the work.
     """
     plants: tuple[str, ...] = ()
-    """The faults from which the seed chooses one, with its size. This fault is planted at the start."""
+    """The faults that can be planted at the start. The seed determines which of them is planted, and its size."""
     sizes: tuple[float, float] = (0.0, 0.0)  # least and greatest size of a planted fault, in the fault's unit
     steps: Mapping[str, tuple[str, ...]] = msgspec.field(default_factory=dict)
-    """Steps of the work, in their order. The key is the name of a step. If the step is done, certain findings hold;
-    the value gives the beginning of each finding's name.
+    """Steps of the work, in their order. A key is the name of a step. Its value contains the beginnings of the names
+    of all findings that must hold if the step is done.
     """
 
     def requires(self, finding: str) -> bool:
@@ -79,7 +80,9 @@ _PUMP: Final = {
     "leave the rotor free": ("rotor",),
 }
 _PART: Final = ("base", "gasket", "top", "rack", "dispenser")
-"""Findings that must hold for an unfinished pump: those on its layers, on the rack and on the dispenser."""
+"""Findings that must hold for an unfinished pump: those about the layers, the screwdriver in its rack, and the
+dispenser.
+"""
 
 PLANNED: Final = (
     Job(

@@ -14,7 +14,9 @@ from handeye.vision.camera_model import CameraModel
 
 
 def _camera(facts: ArmFacts) -> CameraModel | None:
-    """Return the camera as the program has calibrated it, or as its drawing describes it."""
+    """Return the calibrated camera; or, if the program has not calibrated the camera, the camera of the drawing.
+    Returns None if there is no camera.
+    """
     if facts.memory.calibration is not None:
         return facts.memory.calibration.model
     eye = task(facts.task).eye

@@ -68,8 +68,8 @@ class _Screwdriver(ScrewdriverPort):
 
 
 class _Camera(TvCamera):
-    """The television camera. The camera's mechanism takes time that the observation does not show, so every duration
-    is 0, and the wait for a picture includes the wait for the mechanism.
+    """The television camera. The observation does not show when the camera's mechanism has moved. Each movement is
+    therefore reported with the duration 0, and the wait for the next picture includes the time of the movement.
     """
 
     def __init__(self, commands: _Commands) -> None:

@@ -1,7 +1,7 @@
 """Compliant straight motions, in which the measured force moves the set-point.
 
-This is admittance control: the speed of the set-point depends on the force. Every joint stays under its position
-servo. With slack joints, an error of the gravity model would make the hand drift.
+This is admittance control: the speed of the set-point depends on the force. The position servo of every joint stays
+on. With slack joints, an error of the gravity model would make the hand drift.
 """
 
 import math
@@ -30,8 +30,8 @@ class Course:
     spin: Array = field(default_factory=lambda: np.zeros(3))
     """1 for each axis of W about which the hand yields to moment, and 0 for the others, shape (3,)."""
     friction: Array = field(default_factory=lambda: np.zeros(6))
-    """Joint friction that is sensed along (N) and about (N m) each axis of W, shape (6,). This friction is the dead
-    band of the compliance.
+    """Effect of the joint friction on the sensed wrench, shape (6,): first the force (N) along each axis of W, then
+    the moment (N m) about each axis. The compliance does not react to smaller forces and moments.
     """
 
     def patience(self, pressing: int, period: float) -> int:

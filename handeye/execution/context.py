@@ -88,7 +88,7 @@ class ExecutionContext:
 
     @property
     def part_here(self) -> str:
-        """The part at which the hand should be, because the goal of the last MOVE belongs to it. Empty if the goal
+        """The part to which the goal of the last MOVE belongs; the hand should be at this part. Empty if the goal
         belongs to no part.
         """
         place = self.plan.program.positions.get(self.state.place)

@@ -13,7 +13,9 @@ from handeye.ports.workcell import Sensed
 from handeye.program.events import CommandedPeriod
 
 Controller = Callable[[Sensed], CommandedPeriod | None]
-"""A function from the readings of a servo period to the commands for the next one; the value None ends the control."""
+"""A function that takes the readings of a servo period and returns the commands for the next period, or None to end
+the control.
+"""
 
 
 def repeated(periods: Sequence[CommandedPeriod]) -> Controller:
@@ -26,8 +28,8 @@ def controlled(run: ExecutionContext, controller: Controller, most: int) -> tupl
     """Let a controller command servo periods until the controller ends; `most` is the greatest number of periods. Then
     set the brakes until the arm stands still. Returns the commands.
 
-    Earlier steps can no longer be undone, because a reversal would begin where the last step ended. The program no
-    longer assumes that nothing touches the hand.
+    Earlier steps can no longer be undone: a reversal must begin where the last step ended, and the controller has
+    moved the arm away from there. From then on, the program assumes that an object may touch the hand.
     """
     drive, effort, commands = run.drive, constants(run.arm).effort, list[CommandedPeriod]()
     while len(commands) < most and (command := controller(drive.sensed)) is not None:

@@ -32,9 +32,10 @@ MIN_TRAVEL: Final = 0.5  # least fraction of the commanded path; a joint that mo
 MAX_RATIO: Final = 1.8
 """Greatest plausible ratio of the measured friction of a joint to the friction in the joint's data.
 
-Almost all sound joints have a smaller ratio. Many joints whose drives give half of their torque have a larger one. In
-sixty measured worlds, sound joints reached 1.61. In eighty worlds with twice the errors, only one sound joint exceeded
-the limit, with 1.87. If the drive of a joint gave half of its torque, the ratio was 1.4 to 2.3.
+Almost all sound joints have a smaller ratio. If a drive gives only half of its torque, its joint often has a larger
+ratio. In sixty measured worlds, the ratio of a sound joint was at most 1.61. In eighty worlds with doubled errors,
+only one sound joint exceeded the limit, with a ratio of 1.87. If the drive of a joint gave half of its torque, the
+ratio was 1.4 to 2.3.
 """
 
 
@@ -87,11 +88,12 @@ def measure_joints(
 
 
 def at_rest(slow: Array, quick: Array) -> Array:
-    """Compute the Coulomb friction from both passes, shape (n,): the value at rate 0 of the line through the two
-    passes.
+    """Compute the Coulomb friction from the friction in the slow pass and in the quick pass. All arrays have shape
+    (n,).
 
-    In our model of friction, friction cannot fall as the rate rises. If it seems to fall, the mean of the two passes
-    is used, weighted by the durations of the passes.
+    A line through the two values of a joint gives the Coulomb friction, the friction at rate 0. In our model of
+    friction, friction cannot fall as the rate rises. If the friction of a joint seems to fall, the function returns
+    the mean of the two values, weighted by the durations of the passes.
     """
     line = (QUICK.rate * slow - SLOW.rate * quick) / (QUICK.rate - SLOW.rate)
     level = (SLOW.seconds * slow + QUICK.seconds * quick) / (SLOW.seconds + QUICK.seconds)
@@ -104,8 +106,8 @@ def _check_weighed(arm: ArmModel, links: Array) -> None:
     if abs(links[doubted] - 1) > PLAUSIBLE:
         joint = arm.joints[doubted].name
         raise FrictionUnknown(
-            f"the links could not be weighed: the link of the {joint} would be {links[doubted]:.2f} times as heavy "
-            "as in its drawing, so a drive does not give its commanded torque"
+            f"the links could not be weighed: the measurement makes the link of the {joint} {links[doubted]:.2f} "
+            "times as heavy as in its drawing, so a drive does not give its commanded torque"
         )
 
 

@@ -164,7 +164,7 @@ def _begin_to_close(run: ExecutionContext) -> Fault | None:
 
 
 def _driven(start: float, goal: float) -> float:
-    """Return the distance (m) by which the fingers were driven together. A goal below a gap of 0 counts as 0."""
+    """Return the distance (m) by which the fingers were driven together. A negative goal counts as 0."""
     return start - max(goal, 0.0)
 
 

@@ -193,8 +193,8 @@ def _report_faint(run: ExecutionContext, guards: Guards, along: Array) -> None:
 
 
 def _finish(run: ExecutionContext, outcome: Outcome, guards: Guards) -> Fault | None:
-    """Return the error of a motion, or None if the motion has no error. If one of the motion's guards tripped, there
-    is no error. If the motion has guards and none of them tripped, the error says so.
+    """Return the error of a motion, or None if the motion has no error. It is an error if the motion has guards and
+    none of them tripped.
     """
     if outcome.error is not None:
         cause = outcome.cause
@@ -268,8 +268,8 @@ def _held_fast(run: ExecutionContext, guards: Guards) -> Fault | None:
     """Return the error if the motor is held fast: its torque during the last second is high, but below the torque of
     the guard.
 
-    No thread and no slipping bit takes this much torque for a whole second. A motor that is held fast takes the torque
-    of its clutch.
+    No thread and no slipping bit takes this much torque for a whole second. If something holds the motor fast, the
+    motor's torque rises until the clutch slips.
     """
     lately, asked = run.drive.state.lately, min(each.torque for each in guards if isinstance(each, Torque))
     enough = len(lately) >= round(PLATEAU / run.drive.period) and asked <= STALLED_TORQUE

@@ -58,8 +58,8 @@ class Agenda(MutableRecord, Generic[Time], kw_only=True):
 
     now: Time
     due: dict[str, tuple[Time, int]] = msgspec.field(default_factory=dict)
-    """For each task: the time at which it became due or began to wait, and how many times it has continued since then
-    without a delay.
+    """For each task, two values: the time at which the task became due or began to wait, and the number of turns that
+    the task has since taken without a delay.
     """
     waits: dict[str, str] = msgspec.field(default_factory=dict)
     """The tasks that wait for a condition, each with the name of its condition."""
@@ -108,7 +108,7 @@ class Agenda(MutableRecord, Generic[Time], kw_only=True):
         if duration < 0:
             raise BadArgument(f"{task} cannot wait for a negative time")
         if again == _MOST_AT_ONCE:
-            raise Deadlock({task: "nothing, again and again, although no time passes"})
+            raise Deadlock({task: f"no time, {_MOST_AT_ONCE} times in succession"})
         self.due[task] = (time + duration, 0) if duration else (time, again + 1)
 
     def wait(self, task: str, name: str) -> None:

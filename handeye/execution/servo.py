@@ -71,8 +71,8 @@ class Servo:
     _chain: tuple[ArmModel, ArmArithmetic] | None = field(default=None, init=False)
     _unseen: Array | None = field(default=None, init=False)
     """How far (rad, m) each joint moved in the last servo period, minus the motion that its rates show. The value is
-    set only if the closing gap shows that an object has shifted in the fingers, which can move the hand suddenly; if
-    not, the value is None.
+    None unless the gap has closed, which shows that an object has shifted in the fingers. Such a shift can move the
+    hand suddenly.
     """
 
     @property

@@ -74,8 +74,8 @@ class Outcome:
     error: int | None = None  # an error of the motion itself (servo lag, watchdog)
     cause: Cause | None = None  # cause of that error, if there is more to say about it
     off: float = 0.0
-    """Distance (m) of the hand from its set-points in the middle of the motion; 0 if the hand ended near enough to the
-    last set-point.
+    """If the hand missed the last set-point: its distance (m) from the set-points in the middle of the motion.
+    Otherwise 0.
     """
 
 
@@ -177,7 +177,7 @@ class ServoLoop(Servo):
     ) -> Motion[Outcome]:
         """Follow set-points through free air. `lift_off` is the number of set-points of the lift-off. See `following`.
 
-        An obstacle and a force on the hand are two different errors. They are distinguished by the distance of the
+        An obstacle and a force on the hand raise two different errors. They are distinguished by the distance of the
         hand from its set-points in the middle of the motion. A hand that meets an obstacle lags behind its set-points
         only after it has met the obstacle. A hand on which a force acts is displaced during the whole motion.
 
@@ -298,8 +298,8 @@ class ServoLoop(Servo):
         return self._force_in_air() if self.state.in_air and off_zero(self._unloaded()) else REACHED
 
     def _taring(self) -> Motion[bool]:
-        """Take the present force as zero. Returns True if the dither makes the joints slide unevenly although the
-        screwdriver, which would shake the arm, is at rest.
+        """Take the present force as zero. Returns True if the dither makes the joints slide unevenly. If the
+        screwdriver turns, it also shakes the arm; the result is then False.
         """
         here, dither, settle = self.dynamics(), DITHER * self.state.friction, self.arm.servo.settle
         felt, rates = [], []
@@ -336,9 +336,9 @@ class ServoLoop(Servo):
     def height(self) -> float:
         """Height (m, in W) at which the hand has stopped, computed from its set-point.
 
-        At the hand, one step of the converters is up to .05 in, while a set-point has no steps. While the arm moves,
-        it takes many readings, over which the errors of the steps average out. Two motions that end on the same force
-        therefore end at the same mean height.
+        At the hand, one step of the converters is up to .05 in, while a set-point has no steps. The arm takes many
+        readings while it moves, and the rounding errors of these readings average out. Two motions that end on the
+        same force therefore end at the same mean height.
         """
         met = self.state.met
         return float(self.chain.forward(self.state.q)[2, 3] if met is None else met[2])

@@ -216,8 +216,8 @@ class ExecutionState(SystemState, kw_only=True):
     program has continued.
     """
     unwound: dict[int, int] = msgspec.field(default_factory=dict)
-    """For each step of the present stage, the number of reversals that began at the step. A reversal takes back other
-    values of this state, but not these numbers.
+    """For each step of the present stage, the number of reversals that began at the step. A reversal restores the
+    earlier values of the other fields, but it keeps these numbers.
     """
     drive: DriveState
 

@@ -98,7 +98,7 @@ GENTLY: Final = ArmExercise(
 HONEST: Final = ArmExercise(
     name="honest",
     session=4,
-    title="report success only if the pin is in",
+    title="report success only if the pin is in its hole",
     brief="In half of the worlds, the hole is too far away to be found. In these worlds, the program must call the "
     "operator: a program that ends as if all were well is worse than one that stops. In the other worlds, the pin "
     "must go in.",
@@ -112,8 +112,8 @@ HONEST: Final = ArmExercise(
     hints=(
         (
             "reported success",
-            "Follow each path to the end of the program. On which path does the program not measure that the pin "
-            "is in?",
+            "Follow each path to the end of the program. On which path does the program not measure whether the "
+            "pin is in its hole?",
         ),
         (
             "called the operator",

@@ -10,9 +10,9 @@ SEE: Final = ArmExercise(
     session=3,
     title="find the base with the camera",
     brief="The base of the pump lies somewhere on the belt, turned by up to 30 degrees. Find it with the camera, "
-    "and stop with the hand over its web, with the finger line along the line between its two large holes. In some "
-    "worlds there is no base, or the base lies the wrong way round. In these worlds, the program must call the "
-    "operator.",
+    "and stop with the hand over the web of the base. The finger line must be along the line between the two large "
+    "holes of the base. In some worlds there is no base, or the base lies the wrong way round. In these worlds, the "
+    "program must call the operator.",
     task="water_pump",
     taught="exercises/see.toml",
     start="see.al",

@@ -52,8 +52,8 @@ def _matched(
 
 
 def leads_alike(pairs: Sequence[Pair], old: int | None, new: int | None) -> bool:
-    """An edge leads to the step `old` before, and to the step `new` after. Return True if it leads to the same step
-    once the removed and the added steps are ignored. None stands for the end of the program.
+    """Return True if an edge leads to the same step in both programs: to step `old` of the first program, and to step
+    `new` of the second. Steps that only one program has are skipped. None stands for the end of a program.
     """
     at = _pair_of(pairs, 0, old)
     if at < len(pairs) and pairs[at][1] is not None:

@@ -113,7 +113,7 @@ _CONDITIONS: Final[dict[type[AnyOperation], Callable[[Any], list[str]]]] = {
     Height: lambda one: [f"is {_within(one)} above {one.name}, else error {WRONG_HEIGHT}"],
     Undo: lambda operation: [f"undoes the stage, {counted(operation.times, 'time')} at most"],
 }
-"""For each type of operation that has conditions of its own, these conditions in words."""
+"""Conditions in words, for each type of operation that has conditions."""
 
 
 def _axes(axes: Vector3) -> str:

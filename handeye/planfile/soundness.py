@@ -28,7 +28,7 @@ def faults(plan: Plan) -> Iterator[str]:
     if not program.steps:
         yield "it has no steps"
     if "" in program.required:
-        yield "it requires a file without a name"
+        yield "it requires a file but gives no name for this file"
     if len(set(program.stages)) < len(program.stages):
         yield "two of its stages have the same name"
     if not 0 < plan.speed <= 1:
@@ -147,8 +147,8 @@ def _motion(plan: Plan, number: int, step: Step) -> Iterator[str]:
     elif knots is None:
         yield "has a planned motion but does not move"
     elif len(motion.knots) != knots or len(motion.times) != knots - 1:
-        has = f"{counted(len(motion.knots), 'knot')} and {counted(len(motion.times), 'time')}"
-        yield f"has {has} instead of {knots} and {knots - 1}"
+        has = f"{counted(len(motion.knots), 'knot')} and {counted(len(motion.times), 'segment')}"
+        yield f"has {has}, but needs {counted(knots, 'knot')} and {counted(knots - 1, 'segment')}"
     elif not _can_be_run(motion, 0.0 if knots == 2 else _SHORTEST):
         yield "has a planned motion with impossible times or joints"
 

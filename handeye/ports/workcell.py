@@ -111,7 +111,7 @@ class Sensed(Record, frozen=True, kw_only=True):
     tool_torque: float = 0.0  # as `ScrewdriverPort.torque`, N m
     braked: bool = False  # as `ArmReading.braked`
     channels: Mapping[Channel, tuple[float, ...]] = field(default_factory=dict)
-    """Values of all other quantities that the machines sense."""
+    """Values of all sensed quantities that have no field above."""
 
 
 def sense_axes(machines: Sequence[Axes], before: Sensed | None = None) -> Sensed:

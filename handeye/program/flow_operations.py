@@ -37,7 +37,8 @@ class Advance(Operation, frozen=True, kw_only=True):
 
 class Test(Operation, frozen=True, kw_only=True):
     """Test if the last action raised error `number`, and clear the error. If the error was raised, the program
-    continues with step `raised`; if `raised` is None, the program ends.
+    continues with step `raised`, or ends if `raised` is None. If the error was not raised, the program continues with
+    the next step.
     """
 
     __test__ = False

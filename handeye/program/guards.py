@@ -109,8 +109,8 @@ class Torque(Guard, frozen=True, kw_only=True):
 
 
 class Touch(Guard, frozen=True, kw_only=True):
-    """Trips when a finger touches: finger 1 on the +y side of the hand, finger 2 on the other side, or 3 for either
-    finger.
+    """Trips when a finger touches. Finger 1 is on the +y side of the hand, and finger 2 on the other side; 3 stands
+    for either finger.
     """
 
     kind: ClassVar = GuardKind.TOUCH

@@ -190,8 +190,8 @@ class Travel(Operation, frozen=True, kw_only=True):
 
 
 class Height(Operation, frozen=True, kw_only=True):
-    """Check the height (m) of the end of the last motion above the place of a saved difference. Raises error 9 if
-    this height is outside the range.
+    """Check how much higher (m) the hand is after the last motion than it was at the `SAVE` of a difference. Raises
+    error 9 if this height is outside the range.
     """
 
     family: ClassVar = "test"

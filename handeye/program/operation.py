@@ -17,8 +17,8 @@ A target is a position or a part. `goal` is the goal of the last Move, and `trav
 Family = Literal["motion", "hand", "sight", "test", "search", "other"]
 Device = Literal["hand", "screwdriver", "camera"]
 Fields = Mapping[Kind, tuple[str, ...]]
-"""For each kind of value, the fields of an operation that name values of this kind. If a kind has only one value, and
-this value has no name, the tuple is empty.
+"""Fields of an operation whose entries are names of values. The key is the kind of the values. A kind has an empty
+tuple if it has only one value, and this value has no name.
 """
 
 

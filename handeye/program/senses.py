@@ -12,7 +12,7 @@ ASSUMPTIONS: Final[dict[str, str]] = {
     "touch": "finger switches report nothing: CENTER closes blindly and measures nothing",
     "search": "every search tries only its first place",
     "force": "no force ends or guides a motion: every motion is assumed to have ended as planned",
-    "centring": "CENTER acts as CLOSE: the hand does not yield",
+    "centring": "CENTER acts like CLOSE: the hand does not yield",
 }
 
 

@@ -277,6 +277,4 @@ def _faults(taught: Taught) -> Iterator[UnfitEntry]:
         for name, solid in solids.items():
             count += len(solid.boxes)
             if count > MAX_BOXES:
-                yield UnfitEntry(
-                    kind, name, f"with these boxes, the file has more boxes than the limit of {MAX_BOXES}"
-                )
+                yield UnfitEntry(kind, name, f"with this entry, the file has more than {MAX_BOXES} boxes")

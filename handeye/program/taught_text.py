@@ -74,7 +74,8 @@ def _added(text: str, name: str, position: Position) -> str:
 
 
 def _replaced(text: str, name: str, position: Position) -> str:
-    """Return the text with the numbers of `position` in the line or table of the position `name`."""
+    """Return the text with new numbers for the position `name`: the numbers of `position`. The text gives the old
+    numbers in a line or in a table."""
     key = rf"[\"']?{re.escape(name)}[\"']?"
     line = re.compile(rf"^[ \t]*(?:positions\s*\.\s*)?{key}[ \t]*=[ \t]*\{{.*$", re.MULTILINE)
     table = re.compile(rf"^[ \t]*\[\s*positions\s*\.\s*{key}\s*\].*(?:\n(?![ \t]*\[).*)*", re.MULTILINE)

@@ -24,7 +24,7 @@ def argument(proof: Proof, program: Program) -> Iterator[str]:
     unnoticed = [finding for finding in proof.findings if not finding.claims]
     if unnoticed:
         yield ""
-        yield "No program is asked to show these findings:"
+        yield "No program has to show that these findings hold:"
         for rests, some in groupby(unnoticed, key=lambda finding: finding.rests):
             yield f"  {_listed([finding.finding for finding in some])}: {rests}"
     if any(finding.claims for finding in proof.findings):
@@ -73,8 +73,8 @@ def said_of(says: str, claims: Sequence[ClaimProof]) -> str:
 
 
 def _passed(claim: ClaimProof, program: Program) -> str:
-    """Write the lines of the program that show a claim, phase by phase. Every path passes one of the lines of each
-    phase.
+    """Describe, phase by phase, the lines of the program that show that a claim is true. Every path passes one of the
+    lines of each phase.
     """
     said = []
     for step, steps in zip(claim.passed, claim.phases, strict=True):

@@ -14,9 +14,10 @@ WIDTH: Final = 43  # characters of a note
 
 
 def proof_flow(proof: Proof, plan: Plan) -> Flow:
-    """Return the flow between the steps on which a proof rests. The edges of the flow stand for all paths from one of
-    these steps to the next. The notes of a step name the findings that rest on it. If some path to the end does not
-    show a claim, the flow also contains the last step from which the path could still have led to showing the claim.
+    """Return a flow chart with only the steps on which a proof rests. An edge of the flow chart stands for all paths
+    from one of these steps to the next. The notes of a step name the findings that rest on this step. If some path to
+    the end does not show a claim, the chart also contains the last step from which the path could still have led to
+    showing the claim.
     """
     notes, graph = _notes(proof), Graph(plan.program.steps)
     whole = flow(plan)
@@ -26,8 +27,8 @@ def proof_flow(proof: Proof, plan: Plan) -> Flow:
 
 
 def _notes(proof: Proof) -> dict[int, list[str]]:
-    """Return the notes on each drawn step. They name the findings that rest on the step. They also name the findings
-    that a path does not show because the path leaves the step by a certain edge.
+    """Return the notes on each drawn step. Some notes name the findings that rest on the step. Other notes name the
+    findings that a path does not show because the path leaves the step by a certain edge.
     """
     found: dict[int, dict[str, None]] = {}
     for finding in proof.findings:

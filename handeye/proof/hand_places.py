@@ -47,7 +47,7 @@ ANYWHERE: Final = Block(
 
 
 class Situation(NamedTuple):
-    """Where the hand is, and its last motion with its outcome."""
+    """Where the hand is, and how its last motion ended."""
 
     at: Block
     start: Block  # where the last motion began

@@ -33,9 +33,9 @@ class ClaimProof(Record, frozen=True, kw_only=True):
     verdict: Verdict
     phases: tuple[tuple[int, ...], ...] = ()  # for each phase, the steps that show it
     passed: tuple[int | None, ...] = ()
-    """For each phase, a step that shows the phase on every path to the end: the last such step before the step of the
-    next phase. The entry is None if different paths show the phase at different steps. The tuple is empty unless the
-    claim is shown.
+    """For each phase, the step that shows the phase on every path to the end. If several steps do so, the entry is the
+    last of them before the step of the next phase. The entry is None if different paths show the phase at different
+    steps. The tuple is empty unless the claim is shown.
     """
     way: tuple[WayStep, ...] = ()  # a shortest path to the end that avoids the claim
     leaves: int | None = None
@@ -43,7 +43,7 @@ class ClaimProof(Record, frozen=True, kw_only=True):
     claim. None if there is no such step.
     """
     undone: int | None = None
-    """Index, in the path, of the last step after which the claim must be shown again; None if no step requires this."""
+    """Index, in the path, of the last step that undoes what was shown of the claim; None if no step does so."""
     unknown: tuple[int, ...] = ()  # steps whose place the program does not fix
     too_many: bool = False  # True if the search for a path was given up because it became too large
 

@@ -75,7 +75,7 @@ def album(run: RecordedRun) -> Album:
 
 
 def no_album(run: RecordedRun, why: str) -> Album:
-    """Return an album without photographs. The album gives the reason `why` only once."""
+    """Return an album without photographs. The album gives the reason `why` in place of the main photograph."""
     leading = _none(_PhotographRequest(time=outcome(run).time, view=_room(run), shows="The run"), LARGE, why)
     return Album(leading=leading, stages=())
 

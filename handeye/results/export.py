@@ -119,7 +119,7 @@ def exported_solids(exhibit: ExportedState, part: str) -> ExportedSolids:
 
 
 def checks(exported: ExportedSolids) -> Iterator[str]:
-    """Yield remarks on the exported solids, one line each."""
+    """Yield remarks on the exported solids. Each remark is one line."""
     count = counted(exported.solids, "solid")
     yield f"{count}, not closed: {', '.join(exported.open)}" if exported.open else f"{count}, all closed"
     right = [body for body in exported.weighed if agrees(body)]
@@ -172,7 +172,7 @@ class Export(Record, frozen=True, kw_only=True):
     """Names of the solids whose surface is not closed."""
     weights: tuple[Weight, ...] = ()
     remarks: tuple[str, ...] = ()
-    """Remarks on the solids, one line each."""
+    """Remarks on the solids. Each remark is one line."""
 
 
 def export_mjcf(path: Path, shown: Shown, *, overwrite: bool) -> Export:

@@ -45,8 +45,8 @@ def finished(
     referee: Referee | None = None,
     folder: RunFolder | None = None,
 ) -> Result:
-    """End the run if it cannot continue. Then write the pictures and the result of the run to its folder. A run that
-    has only paused is not ended. Returns the result.
+    """End the run if it cannot continue; a run that has only paused can continue. Then write the pictures and the
+    result of the run to its folder. Returns the result.
 
     The result is written last, so if it exists, all other files exist too. Raises InvalidInput if a file cannot
     be written.

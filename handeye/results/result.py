@@ -53,7 +53,8 @@ class Timing(Record, frozen=True, kw_only=True):
     lens_s: float
     """Simulated time in which the arm waited for lens change, aim, focus and pictures."""
     overlapped_s: float
-    """Simulated time in which the camera's mechanism and the arm moved at once; `manipulation_s` includes this time.
+    """Simulated time in which the camera's mechanism and the arm moved at the same time; `manipulation_s` includes
+    this time.
     """
     working_s: float
     """Simulated time of the working phase: the sum of `manipulation_s` and `lens_s`."""
@@ -68,8 +69,8 @@ class Timing(Record, frozen=True, kw_only=True):
     real_time_factor: float
     """Simulated seconds, including preparation, per second of `run_wall_s`. This ratio differs from run to run."""
     host_from_step: int
-    """Number of steps done before computing time was recorded. If this number is 0, the computing times cover the
-    whole run.
+    """Number of steps that were done before the recording of computing times began. If this number is 0, the computing
+    times cover the whole run.
     """
 
 

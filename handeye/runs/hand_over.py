@@ -22,13 +22,14 @@ from handeye.program.world_model import rounded_place
 from handeye.vision.calibration import Calibration
 
 MOVED: Final = 3e-3
-"""Distance (m) by which the hand may be off its place in the record. Our choice: while the brakes are set, the hand
-sinks by less than this distance.
+"""Greatest distance (m) of the hand from the place that the record gives. Our choice: while the brakes are set, the
+hand sinks by less than this distance.
 """
 TURNED: Final = 0.02  # rad by which the hand may be turned. Our choice.
 GAP_CHANGED: Final = 1e-3
 """If the gap between the fingers has changed by at most this distance (m), we assume that the hand still holds the
-same part. Our choice: a part that straightens between the fingers makes the gap up to .55 mm wider or narrower.
+same part. Our choice: if a part turns until it lies flat against the fingers, the gap becomes up to .55 mm wider or
+narrower.
 """
 MOST_NAMES: Final = 200
 

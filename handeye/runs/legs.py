@@ -1,4 +1,4 @@
-"""Defines the interface of a system that can do a leg of a relay.
+"""Defines the interface of a system that can run a leg of a relay.
 
 A relay is a list of legs; each leg does one stage of a task in the language of one system, on the cell that all legs
 share. The relay (`handeye/systems/relay`) finds the other systems by their entries: `Entry.leg` names a `LegSystem`.
@@ -37,7 +37,9 @@ class Lack(NamedTuple):
 
 
 class RunningLeg(RunningSystem):
-    """A program during its legs. Between its legs, it keeps its memory, and other programs may move the arm."""
+    """A program of a relay during its legs. Between two of these legs, the program keeps its memory, and other
+    programs may move the arm.
+    """
 
     @abstractmethod
     def stand_at(self, stage: str) -> None:
@@ -57,7 +59,8 @@ class RunningLeg(RunningSystem):
 
     def take_back(self, station: StationMemory) -> None:
         """Take the arm back from the program of the next leg, after that program has undone its steps. The arm is
-        roughly where it was when this leg ended. Only a program that can undo its own steps needs this method.
+        roughly where it was when this leg ended. The program of this leg needs this method only if it can undo its own
+        steps.
         """
         raise NotImplementedError
 
@@ -68,7 +71,7 @@ class RunningLeg(RunningSystem):
 
 
 class LegSystem(ABC):
-    """A system that can do legs of a relay."""
+    """A system that can run legs of a relay."""
 
     system: str  # its entry's name
     state: type[SystemState]  # of its running legs
@@ -136,7 +139,7 @@ class LegSystem(ABC):
 
 
 def leg_system(name: str) -> LegSystem:
-    """Return the `LegSystem` of the system called `name`. Raises Refused if the system cannot do legs, and NoSuchName
+    """Return the `LegSystem` of the system called `name`. Raises Refused if the system cannot run legs, and NoSuchName
     if there is no such system.
     """
     require(name, "leg")

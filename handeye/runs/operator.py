@@ -67,7 +67,7 @@ NOBODY: Final = Abort()
 
 @dataclass(frozen=True, slots=True)
 class Retry:
-    """Retries a failed stage up to `times` times, then gives up. While the arm undoes its work, this
+    """Retries a failed stage up to `times` times, then gives up. If a call comes while the arm undoes its work, this
     operator gives up at once.
 
     Earlier attempts are counted from the events of the run, so that a resumed run continues as if it had not

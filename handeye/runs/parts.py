@@ -49,7 +49,7 @@ class Parts:
             if was is not None and now is None:
                 raise Refused(
                     f"the run uses a {part} of the calling program, `{was}`, whose code is not saved in the run; in "
-                    f"Python, pass it to `handeye.begin` as {given_as(part)}"
+                    f"Python, pass `{was}` to `handeye.begin` as {given_as(part)}"
                 )
             if was != now:
                 before = f"handeye's own {part}" if was is None else f"`{was}` as its {part}"

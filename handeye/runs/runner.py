@@ -54,8 +54,8 @@ RECENT: Final = 400  # steps whose states stay in memory; older states only at t
 
 
 def reach(first: int) -> str:
-    """Say in a sentence that a run cannot go back beyond its earliest state. `first` is the number of steps done in
-    this state.
+    """Say in a sentence that a run cannot go back beyond its earliest state. `first` is the number of steps that came
+    before this state.
     """
     return (
         f"this run begins with {counted(first, 'step')} already done: there is no earlier state to go back to"
@@ -81,8 +81,9 @@ class Runner:
         parts: Parts = OWN,
         calibrate: bool = False,
     ) -> None:
-        """Build the cell. If `start` contains a state of the run, restore this state. If not, calibrate
-        the cell's camera, or restore the state that an earlier run stored after its calibration.
+        """Build the cell. If `start` contains a state of the run, restore this state. If not, restore the state that
+        an earlier run stored after it calibrated the camera. If no earlier run stored such a state, calibrate the
+        camera.
 
         Args:
             halt: the panic button, polled in every servo period; Halted is raised if it is pressed during
@@ -429,7 +430,8 @@ class Runner:
         cell = self.system.cell
         if (cell is None) != (snapshot.cell is None):
             raise BadFile(
-                "the state belongs to a run of a different kind: only one of the two runs has a work cell"
+                "the state belongs to a run of a different kind: either the state or this run has a work cell, but "
+                "not both"
             )
         if cell is not None and snapshot.cell is not None:
             cell.restore(snapshot.cell)

@@ -69,7 +69,9 @@ class StartStates:
     """The start states of one task, kept in a folder. Without a folder, every start state is made again."""
 
     def __init__(self, task: str, camera: str, folder: Path | None = None) -> None:
-        """Keep the starts in a folder, by default in the user's cache."""
+        """Use the starts of a task: the states in which its stages begin. `folder` is the folder in which they are
+        stored, by default in the user's cache.
+        """
         self._task, self._camera, self._folder = task, camera, folder or starts_folder()
 
     def before(self, stage: int, world: WorldSpec) -> Checkpoint | None:

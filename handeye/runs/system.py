@@ -409,8 +409,8 @@ class System(ABC):
 
     @abstractmethod
     def build(self, setup: Setup, around: RunCallbacks) -> RunningSystem:
-        """Build the running system before its first step. Raises InvalidInput if the system cannot be built on this
-        computer.
+        """Build the running system, without making a step yet. Raises InvalidInput if the system cannot be
+        built on this computer.
         """
 
     def machine(self, plan: Any) -> tuple[str, str]:

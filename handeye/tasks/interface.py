@@ -193,7 +193,7 @@ class Task(AnyTask):
 
     arm: ArmModel
     park: Array
-    """Joint positions at which the cell is switched on (rad or m), shape (n,)."""
+    """Joint positions of the arm when the cell is switched on (rad or m), shape (n,)."""
     script: str | None = None
     """The task's own program: a file among the included plans, or the path of a file elsewhere. The task runs this
     program unless the user names another.
@@ -240,7 +240,8 @@ class Task(AnyTask):
     def obligations(self, world: WorldSpec) -> tuple[Obligation, ...]:
         """Return the obligations of a program. An obligation is what the program must show, for one finding of the
         referee, before the program ends. By default, there are no obligations. Each finding occurs once. The
-        obligations depend on the job of the world, but not on its errors.
+        obligations may depend on what the world asks for, such as the number of screws, but not on the errors of the
+        machines and parts.
         """
         return ()
 

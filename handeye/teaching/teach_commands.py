@@ -52,7 +52,7 @@ class TeachSession:
         lesson = TEACH_COMMANDS.get(word)
         if lesson is None:
             known = suggestion(word, [*TEACH_COMMANDS, "quit"])
-            raise NoSuchName(f"there is no command {quoted(word)}; " + (known or "`help` lists them"))
+            raise NoSuchName(f"there is no command {quoted(word)}; " + (known or "`help` lists the commands"))
         return lesson.act(self.teacher, rest)
 
     def _quit(self) -> Answer:

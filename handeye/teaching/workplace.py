@@ -31,7 +31,7 @@ from handeye.teaching.functions import TYPED, planned
 MAX_STATES: Final = 100  # states that are stored for going back
 _NOTHING: Final = "WHERE"
 _PICTURE: Final = "LOOK SETUP"
-"""Programs that a workplace holds until it is given a program. These programs are not executed."""
+"""While a workplace has no program of the user, it holds one of these two programs. It never executes them."""
 _FORGOTTEN: Final = (
     "at", "pending", "stage", "stopped", "onward", "idle", "clock", "shots", "general", "found",
     "done", "undoing",

@@ -23,23 +23,22 @@ the goal. The value is a placeholder.
 GAP_NOISE: Final = 0.02 * INCH  # m; twenty times the sensor noise
 SHIFT_NOISE: Final = 0.006 * INCH
 """Greatest change (m) of the gap reading between two servo periods while the fingers stand still. The value allows for
-one step of the converter (.001 in), because of rounding, plus five standard deviations of the noise (.0006 in per
-reading at the high level).
+rounding and for noise. The converter rounds to steps of .001 in. Five standard deviations of the noise are added
+(.0006 in per reading at the high level).
 """
 FREE_FORCE: Final = 45 * OUNCE_FORCE
-"""Greatest force sensed in free air: 12.5 N.
-
-The errors of link masses, mass centres, drive gains and joint friction look like a force on the hand, upwards or
-downwards. We calculated this force for 15 places on the table: it is at most 6.1 N in 400 nominal worlds, and at most
-8.9 N in worlds of the high level. At the high level, the weight of the base beyond its declared load adds 2 N.
+"""Greatest force that the arm may sense in free air: 12.5 N. With more force, the program calls the operator. The
+errors of link masses, mass centres, drive gains and joint friction look like a force on the hand, upwards or
+downwards. We calculated this apparent force for 15 places on the table: it is at most 6.1 N in 400 nominal worlds, and
+at most 8.9 N in worlds of the high level. At the high level, the weight of the base beyond its declared load adds 2 N.
 """
 SWITCH_FORCE: Final = 10 * OUNCE_FORCE
 """Force (N) with which the fingers press after centring. It closes both switches.
 
 The switches close at 2 ounces, with a stated spread of .4 ounces. In worlds of the high level, the spread is .8
 ounces. With three times this spread added, each finger must press with at least 4.4 ounces. The rest of the force
-allows for two errors. One finger may press with 3 ounces less than the other, because the arm can hold the difference.
-The force depends on the gap, which is known only to one step of its converter.
+allows for two errors. First, one finger can press with 3 ounces less than the other, because the arm can hold the
+difference. Second, the force depends on the gap, which is known only to one step of its converter.
 """
 GAP_OFFSET: Final = (
     0.06 * INCH
@@ -50,7 +49,7 @@ STARTING_TORQUE: Final = 0.05
 STALLED_TORQUE: Final = 0.37
 """Greatest torque of the motor (N m): the torque of the slipping clutch, plus the torque that turns the spindle."""
 STARTING_PERIODS: Final = 4
-"""Servo periods that a motor takes to reach the speed of driving. We measured 4.2 periods."""
+"""Number of servo periods that a motor takes to reach its driving speed. We measured 4.2 periods."""
 FAST_PERIODS: Final = 6
 """Servo periods after which a free motor of the usual speed has certainly started. A motor whose full speed is 1.4
 times the usual speed takes longer.
@@ -60,7 +59,7 @@ WIND_UP: Final = 0.2
 measured time is .1 s.
 """
 DRIVEN: Final = 0.2 * INCH
-"""A screw shows its running torque when it has advanced by this distance (m), which is four turns."""
+"""A screw shows its running torque after four turns, in which it advances by this distance (m)."""
 PLATEAU: Final = 1.0
 """Time (s) for which a torque must last to show that the motor is held fast: the time of three turns at driving speed.
 Our choice.
@@ -139,10 +138,10 @@ OFF_MIDDLE: Final = 3e-3
 """Permitted distance (m), along the line of the fingers, between an object and the middle of the fingers when they
 close on the object again.
 
-An object that was carried and set down may have slid in the grip by SKEW and turned by 2 degrees. At a grasp 57 mm
-from that grip, as on the walls of the pump base, the turn is a displacement of 2 mm. In eight pumps, the measured
-displacement was at most 1.8 mm on these walls, and 1.0 mm elsewhere (from play in a hole or rack, and compliance of
-the arm while it held the object).
+An object that was carried and set down may have slid between the fingers by SKEW, and turned by 2 degrees. If the
+fingers then grasp the object 57 mm from the place where they held it, as on the walls of the pump base, the turn
+displaces the grasped place by 2 mm. In eight pumps, the measured displacement was at most 1.8 mm on these walls, and
+1.0 mm elsewhere (from play in a hole or rack, and compliance of the arm while it held the object).
 """
 
 

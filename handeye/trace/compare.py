@@ -28,7 +28,7 @@ def compared(a: Trace, b: Trace, *, events: int | None = None, unseen: int = 0) 
 
     If `events` is given, compare only the first N events, where N is `events`, and the messages before and between
     these events. Messages recorded before event number `unseen` are left out. The two runs may have used different
-    processors and versions.
+    processors and different versions of handeye.
     """
     if a.plan != b.plan:
         return Repetition(parts="the traces belong to different plans")

@@ -39,8 +39,8 @@ EYE: Final = Sweep(
     sentence=lambda row: f"seed {row.seed:4}  {row.detail}",
     shared_worlds=True,
 )
-"""A sweep of attempts in many worlds, without the parts that depend on the trial. `eye_sweep` adds these parts for one
-trial of a task.
+"""A sweep of attempts in many worlds. `eye_sweep` adds what depends on the trial: its name, its figures and its
+summary.
 """
 
 

@@ -139,7 +139,7 @@ class FaultWork:
     faults: Mapping[str, Fault]
     camera: str
     sound: Path | None = None
-    """Folder of the fault-free runs. If a fault begins with a stage after the first, the run with this fault starts
+    """Folder of the fault-free runs. A fault may begin later than the first stage. The run with this fault then starts
     from a checkpoint of a fault-free run. If the folder is None, every run starts at its beginning.
     """
 

@@ -116,7 +116,7 @@ class Figures(Record, frozen=True, kw_only=True):
     right: int
     silent_failures: int  # Failures that the program reported as a success
     failed: int
-    """Trials that did not finish: because of an exception, a limit, or a process that was killed twice."""
+    """Trials that did not finish: an exception or a limit ended them, or their process was killed twice."""
     uncounted: int
     killed: int  # How often the process of a trial was killed
     wilson95: tuple[float, float] | None  # Wilson's interval of the probability that a trial is right

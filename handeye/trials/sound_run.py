@@ -44,8 +44,7 @@ class SoundRun:
         found = self.store.at_or_before(position)
         if found is None or found.snapshot is None:
             raise Refused(
-                f"a schedule cannot begin after {counted(position, 'step')}: the run stored no state at or before "
-                "this step"
+                f"a schedule cannot begin after {counted(position, 'step')}: up to there, the run stored no state"
             )
         return found
 

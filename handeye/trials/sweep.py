@@ -78,7 +78,7 @@ class TrialRow(Record, frozen=True, kw_only=True):
 
     @property
     def key(self) -> tuple[str, int]:
-        """The condition and the number of the trial, which together identify it within its sweep."""
+        """The condition and the number of the trial. Together they identify the trial within its sweep."""
         return self.condition, self.trial
 
     @property
@@ -200,8 +200,8 @@ class Sweep(Generic[R]):
     """Further entries for the JSON."""
     details: Callable[[Sequence[R]], Sequence[Details]] = field(default=lambda _: ())
     work: "Callable[[Case], Sequence[R]] | None" = None
-    """The function that executes the trials of a case, if trials of this kind have no options. A kind without options
-    needs no command of its own.
+    """The function that executes the trials of a case. Only a kind of trial without options has this function, and
+    such a kind needs no command of its own.
     """
     shared_worlds: bool = False
     """True if several trials share a world. The number of a trial then does not determine the seed of its world."""

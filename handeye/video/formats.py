@@ -46,8 +46,8 @@ def webp(frames: Frames, held: int) -> bytes:
 
 
 def settled(frames: Frames) -> Frames:
-    """Yield the frames with small changes held back: each block of pixels stays as it was last shown until it
-    differs enough from that.
+    """Yield the frames without their small changes: a block of pixels changes only when it differs enough from the
+    block that was last shown in its place.
 
     libwebp leaves out blocks that resemble the blocks of the previous frame. Without this function, slow changes
     would never be shown.

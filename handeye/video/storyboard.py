@@ -91,7 +91,8 @@ def _target(hands: Array) -> Array | None:
     in which most of the positions of the hand lie. These positions are `hands`, shape (n, 3). Returns None if the
     positions hardly differ.
 
-    Later positions have more weight, because a part is put down after it is fetched.
+    Later positions have more weight, so that the view shows the place where a part is put down rather than the place
+    from which it is fetched.
     """
     if not len(hands) or np.ptp(hands, axis=0).max() < _STILL_M:
         return None

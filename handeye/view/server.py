@@ -162,8 +162,9 @@ class Server:
             self._tell_drive()
 
     async def _feed(self, viewer: Viewer, newest: Newest) -> None:
-        """Send a viewer messages, the newest state and the newest picture, as fast as the viewer can receive
-        them."""
+        """Send the waiting messages, the newest state and the newest picture to a viewer, as fast as the viewer can
+        receive them.
+        """
         shown, pictured, heard = None, None, None
         try:
             while True:

@@ -1,5 +1,5 @@
-"""Beams. A beam finds the first edge along a ray, which is a discontinuity of intensity. All other primitives are built
-from beams, and from walks, which are beams along one line or column of the picture.
+"""Beams. A beam finds the first edge along a ray. An edge is a discontinuity of intensity. All other primitives are
+built from beams, and from walks, which are beams along one line or column of the picture.
 
 A beam ends at its edge and reads no points beyond it.
 """

@@ -218,8 +218,8 @@ class _Side:
         return low, high
 
     def _means(self, first: int, last: int, low: int, high: int) -> NDArray[np.float32]:
-        """Return the mean intensities of squares with sides of SPAN points, whose middles are on the lines `first` to
-        `last`, shape (lines, places).
+        """Return the mean intensities of squares, shape (lines, places). The side of a square is SPAN points long, and
+        its middle is on one of the lines `first` to `last`.
         """
         slab = self._image[first - 1 : last + 2, low : high + 1]
         wide = slab[:-2] + slab[1:-1]

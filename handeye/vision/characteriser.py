@@ -92,7 +92,7 @@ class Blob(NamedTuple):
     u: float
     v: float
     width: float
-    """Length of the last horizontal chord."""
+    """Length of the horizontal chord of the last bounce."""
     height: float
     bounces: int
 

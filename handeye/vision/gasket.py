@@ -158,15 +158,17 @@ def _as_seen(old: Scan, view: View, part: Part, places: Array) -> Array:
 
 
 class _BaseSteps(NamedTuple):
-    """Thresholds for the picture without the gasket: the least step across a border, and the intensity of the face."""
+    """Thresholds for the picture without the gasket: the least change of intensity across a border, and the intensity
+    of the face.
+    """
 
     before: float
     face: float
 
 
 class _Steps(NamedTuple):
-    """Thresholds: the least steps across a border in the difference and in the picture without the gasket, and the
-    intensity of the face.
+    """Thresholds: the least changes of intensity across a border, in the difference and in the picture without the
+    gasket; and the intensity of the face.
     """
 
     after: float
@@ -254,8 +256,8 @@ def _bulge(new: Scan, old: Scan, view: View, centre: Array, hole: Hole, steps: _
     (3,)).
 
     The border is that of a union of two discs. Half of this border is nearly undisturbed, so the bulge is measured
-    from the median radius. A ray counts only if the border of the base's hole is visible on it in the picture without
-    the gasket, because an aligning pin may hide the border.
+    from the median radius. An aligning pin may hide the border of the base's hole. A ray therefore counts only if, in
+    the picture without the gasket, the border is visible where the ray crosses it.
     """
     radii, (middle, reach) = [], _seen(view, centre, hole)
     for scan, step, beyond in ((old, steps.before, steps.face), (new, steps.after, 0.0)):

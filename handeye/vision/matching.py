@@ -45,10 +45,10 @@ of the picture's levels.
 
 Limits in levels mean something only in pictures of about the usual contrast, which is 6.6 to 7.4 levels on a pump
 (five worlds). In such pictures, a missing head gives at least 3.7 levels. At a contrast of 2.9 levels, a missing head
-would thus give 1.6 levels, which is the limit `DIFFERENT`. The rest, from 2.9 to 3.3, is a margin for the noise.
+would thus give 1.6 levels, which is the limit `DIFFERENT`. FAINT is 3.3 instead of 2.9 to leave a margin for the noise.
 """
 BESIDE: Final = 12
-"""Width (points) of a strip around the part that counts neither as part nor as surroundings.
+"""Width (points) of a strip around the part. The strip counts neither as part nor as surroundings.
 
 The aim of the mount differs slightly from the readings of its potentiometers, and the part casts a shadow.
 """

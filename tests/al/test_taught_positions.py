@@ -97,7 +97,7 @@ def test_fixtures_and_what_is_held_arrive_in_si(tmp_path: Path) -> None:
         ),
         (
             f"[fixtures.F]\nboxes = {[[0, 0, 0, 1, 1, 1]] * 501}",
-            r":1: fixtures\.F: with these boxes, the file has more boxes than the limit of 500",
+            r":1: fixtures\.F: with this entry, the file has more than 500 boxes",
         ),
         ("positions = 3", r": positions: a whole number instead of a table"),
     ],

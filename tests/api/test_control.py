@@ -90,7 +90,7 @@ def failing(seen: Sensed) -> handeye.Command:
 @pytest.mark.parametrize(
     ("controller", "seconds", "sentence"),
     [
-        (3, 1.0, "a controller must be a function of the readings, not 3"),
+        (3, 1.0, "a controller must be a function that receives the readings, not 3"),
         (other, 0.0, "`seconds` must be a number from one servo period (0.0167 s) to 3600 s, not 0.0"),
         (lambda _: 3, 1.0, "must return a handeye.Command or None, not 3"),
         (lambda _: handeye.Command(torque=[1, 2]), 1.0, "must give 6 finite torques, not [1, 2]"),

@@ -305,8 +305,8 @@ def test_a_referee_of_ones_own_has_the_word() -> None:
     [
         (
             {"search": 3},
-            r"^a search must be a function that takes the number of a place and returns the place; 3 is not a "
-            r"function$",
+            r"^a search must be a function that takes a whole number and returns the place with this number; 3 is "
+            r"not a function$",
         ),
         (
             {"camera": 3},

@@ -361,7 +361,7 @@ def test_the_call_of_the_operator_is_told_with_what_can_be_said(say: Say) -> Non
     assert why(called) == ("operator", CALLED)
     assert (
         called.said
-        == "the program calls the operator: answer `proceed`, `retry`, `skip` or `abort`, go back, or `undo`"
+        == "the program calls the operator: answer `proceed`, `retry`, `skip` or `abort`, or use `back` or `undo`"
     )
     assert called.did[-1].outcome == f"error 2: {CALLED}; the program calls the operator"
     assert "  ■ 19          CLOSE   .4" in as_text(called).splitlines()
@@ -540,7 +540,7 @@ def test_a_run_in_trouble_goes_nowhere_but_back(say: Say, runner: Runner) -> Non
     runner._broken = "the simulation lost its footing"
     assert (
         say("s")[0].error
-        == "the run cannot continue from here; it can only go back: the simulation lost its footing"
+        == "the run can only go back, and cannot continue from here: the simulation lost its footing"
     )
     assert (
         say("set saved H 0 0 0")[0].error
@@ -573,7 +573,7 @@ def test_a_step_that_cannot_be_written_down_is_undone_and_can_be_done_again(
     [
         ("stpe", "there is no command `stpe`; did you mean `step`?"),
         ("run", "there is no command `run`; did you mean `continue`?"),
-        ("frobnicate", "there is no command `frobnicate`; `help` lists them"),
+        ("frobnicate", "there is no command `frobnicate`; `help` lists the commands"),
         ("contineu", "there is no command `contineu`; did you mean `continue`?"),
         ("step x", "`step` takes a number of 1 or more, not `x`"),
         ("step 0", "`step` takes a number of 1 or more, not `0`"),
@@ -610,7 +610,7 @@ def test_a_step_that_cannot_be_written_down_is_undone_and_can_be_done_again(
         ("skip", "`skip` answers a call to the operator, but no call is waiting for an answer"),
         ("abort", "`abort` answers a call to the operator, but no call is waiting for an answer"),
         ("checkpoint", "this run has no folder for checkpoints; `checkpoint FILE` writes a checkpoint to a file"),
-        ("help me", "there is no command `me`; `help` lists them"),
+        ("help me", "there is no command `me`; `help` lists the commands"),
     ],
 )  # fmt: skip
 def test_a_wrong_command_is_answered_by_one_sentence_and_changes_nothing(
@@ -628,9 +628,7 @@ def test_going_back_farther_than_the_beginning_is_refused(say: Say) -> None:
 
 
 def test_after_the_call_of_the_operator_going_on_needs_an_answer(say: Say) -> None:
-    refusal = (
-        "the program calls the operator: answer `proceed`, `retry`, `skip` or `abort`, go back, or `undo`"
-    )
+    refusal = "the program calls the operator: answer `proceed`, `retry`, `skip` or `abort`, or use `back` or `undo`"
     assert [answer.error for answer in say("c", "step", "stage", "continue")] == [None, *[refusal] * 3]
 
 
@@ -655,7 +653,7 @@ def test_the_json_of_an_answer_says_where_the_run_stands_and_what_happened(stepp
     assert [event["event"] for event in first["events"]].count("StepFinished") == 3
     assert (first["error"], wrong["error"]) == (
         None,
-        "there is no command `frobnicate`; `help` lists them",
+        "there is no command `frobnicate`; `help` lists the commands",
     )
     assert (wrong["pause"], wrong["events"], wrong["position"]) == (None, [], 3)
 

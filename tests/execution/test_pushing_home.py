@@ -1,4 +1,4 @@
-"""The last stage pushes the pump back to its blocks, also if the screwdriver has turned it away from them, and calls the
+"""The last stage pushes the pump back to its blocks, even if the screwdriver has turned it away from them. It calls the
 operator if the pump ends at another place than before.
 """
 

@@ -154,7 +154,7 @@ GUARD = f"{CHANGE}.guards.0"
         (
             "program.steps.0.operation.via",
             ["T"],
-            "step 0 (line 2) has 4 knots and 3 times instead of 5 and 4",
+            "step 0 (line 2) has 4 knots and 3 segments, but needs 5 knots and 4 segments",
         ),
         (
             "motions.0.times",
@@ -162,7 +162,11 @@ GUARD = f"{CHANGE}.guards.0"
             "step 0 (line 2) has a planned motion with impossible times or joints",
         ),
         ("motions.0.knots.1", [0.0] * 5, "its motions have different numbers of joints: 5 and 6"),
-        ("motions.0.times", [1.0], "step 0 (line 2) has 4 knots and 1 time instead of 4 and 3"),
+        (
+            "motions.0.times",
+            [1.0],
+            "step 0 (line 2) has 4 knots and 1 segment, but needs 4 knots and 3 segments",
+        ),
         (
             "motions.0.times",
             [1.0, -1.0, 1.0],

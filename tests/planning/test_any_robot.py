@@ -78,7 +78,7 @@ def refused(arm: ArmModel, position: str) -> Diagnostic:
         (
             CARTESIAN,
             f"[30 {Y} 4 60 90 0]",
-            "the hand would have to turn by 30.0 degrees about an axis that the joints of the cartesian arm lack",
+            "the hand would have to turn by 30.0 degrees about an axis for which the cartesian arm has no joint",
         ),
         (
             PLANAR,

@@ -93,8 +93,8 @@ WORDS: list[tuple[c.Cause, str]] = [
     ),
     (
         s.SwitchesCrossed(fingers=(True, False), moved=0.06 * INCH),
-        "the switch of the +y finger is still closed after the hand moved 0.06 in towards this side, away from the "
-        "part: the two switches are swapped, or the switch of the other finger stays open",
+        "the switch of the +y finger is still closed after the hand moved 0.06 in towards the side of this finger, "
+        "away from the part: the two switches are swapped, or the switch of the other finger stays open",
     ),
     (
         s.SwitchesHard(fingers=(True, True), force=10 * OUNCE_FORCE),
@@ -130,16 +130,16 @@ WORDS: list[tuple[c.Cause, str]] = [
     ),
     (
         s.GapUnlike(gap=1.15 * INCH, thickness=1.0 * INCH, held="PIN"),
-        "the gap reads 1.15 in on PIN, which is 1.00 in thick between the fingers; "
-        "the reading is 1.15 times the thickness",
+        "the gap reads 1.15 in, but between the fingers is PIN, which is 1.00 in thick; the reading is 1.15 times "
+        "the thickness",
     ),
     (
         s.CurrentUnlike(torque=3.5 * OUNCE_INCH, known=7 * OUNCE_INCH),
-        "the sensor shows 3.5 oz-in, but the motor takes 7.0 oz-in; the reading is 0.5 times this torque",
+        "the sensor shows 3.5 oz-in, but the torque of the motor is 7.0 oz-in; the reading is 0.5 times this torque",
     ),
     (
         s.DrivesUnlike(joints=(ARM.joints[1],), factors=(1.3,)),
-        "the weights of the links, as the drives feel them, have changed: a drive gives more or less torque than "
+        "the drives feel other weights of the links than before: either a drive gives more or less torque than "
         "commanded (the drive of the wrist gives 1.30 times as much), or the arm no longer stands upright",
     ),
     (
@@ -152,7 +152,7 @@ WORDS: list[tuple[c.Cause, str]] = [
     ),
     (
         s.GapStill(gap=1.0 * INCH, driven=0.7 * INCH),
-        "the gap still reads 1.00 in; the fingers were driven together by 0.70 in",
+        "the gap still reads 1.00 in; the fingers were driven 0.70 in closer together",
     ),
     (
         s.ForceInAir(force=(0.0, -1.0 * OUNCE_FORCE, 70.0 * OUNCE_FORCE), limit=25 * OUNCE_FORCE, load=0.0),

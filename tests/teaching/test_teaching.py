@@ -175,7 +175,7 @@ def test_nobody_quits_unsaved_without_being_told(pupil: TeachSession) -> None:
 @pytest.mark.parametrize(
     ("line", "said"),
     [
-        ("fly", "there is no command `fly`; `help` lists them"),
+        ("fly", "there is no command `fly`; `help` lists the commands"),
         ("tabel x 1", "there is no command `tabel`; did you mean `table`?"),
         ("table x", "write the command as in `table x +.5` or `table turn z 10`"),
         ("table w 1", "`w` is not an axis; the axes are x, y and z"),

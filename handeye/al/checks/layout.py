@@ -52,7 +52,7 @@ def _bodies(statements: Sequence[Statement], source: Source) -> Iterator[Diagnos
 
 
 def _steps_behind(statements: Sequence[Statement], skip: int) -> list[Name]:
-    """Return the words of the first steps after a skip: at most `_MIN_BODY` words, and only those before a label."""
+    """Return the words of the first steps after a skip: at most `_MIN_BODY` words, and none after the next label."""
     words: list[Name] = []
     for number in range(skip + 1, len(statements)):
         word = statements[number].word
@@ -90,5 +90,5 @@ def _torn(macro: Macro, behind: Statement, source: Source) -> Iterator[Diagnosti
             "outside the macro",
             modifier.span,
             Label(span=motion.span, text="this line is after the macro"),
-            help="remove the blank line, which ends the macro, or write a comment on it",
+            help="the blank line ends the macro: remove this line, or write a comment on it",
         )

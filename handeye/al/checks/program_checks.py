@@ -119,8 +119,8 @@ _TOO_FAR = ("search-begun-anew", "count-begun-anew")
 def check_unused(
     script: Script, statements: Iterable[Statement], words: ByWord, used: Used, source: Source
 ) -> Iterator[Diagnostic]:
-    """Report the unused names of a script that has no errors. Taught positions do not count, because another script
-    may use them.
+    """Report the unused names of a script that has no errors. Unused taught positions are not reported, because
+    another script may use them.
     """
     targets = {name.text for name in used[Refers.LABEL]}
     for statement in statements:
@@ -147,8 +147,8 @@ def check_unused(
 
 
 def with_unused(found: list[Diagnostic], unused: list[Diagnostic]) -> list[Diagnostic]:
-    """Join the diagnostics. If a jump goes too far back, and an unused label may be the label that was meant,
-    report the two as one mistake.
+    """Join the diagnostics. A jump may go too far back, past an unused label that the user perhaps meant. Report such
+    a jump and the label as one mistake.
     """
     left, merged = list(unused), []
     for diagnostic in found:

@@ -1,8 +1,8 @@
 """Finds each RESTORE whose difference has not been saved on any path to that RESTORE.
 
-There is one exception. A difference may be saved relative to a goal that a RESTORE of the same difference has shifted.
-Each SAVE then changes the goal to which the next SAVE refers. Before the first SAVE of such a difference, the
-difference may be used with the value zero.
+There is one exception. Some programs save a difference relative to a goal that a RESTORE of the same difference has
+shifted. Each SAVE then changes the goal to which the next SAVE refers. Before its first SAVE, such a difference has
+the value zero, and a RESTORE of it is no mistake.
 """
 
 from collections.abc import Iterator
@@ -18,8 +18,8 @@ from handeye.program.motion_operations import Move
 
 
 def check_restores(lowered: Lowered, graph: Graph) -> Iterator[Diagnostic]:
-    """Report RESTOREs that are wrong in every call. A name without any SAVE is not reported here, because
-    `check_names` reports it.
+    """Report each RESTORE that is wrong in every call of the macro that contains it. A name without any SAVE is not
+    reported here, because `check_names` reports it.
     """
     saves = {number: _name(lowered.origins[number]) for number in graph.which(Save)}
     first: dict[str, Name] = {}

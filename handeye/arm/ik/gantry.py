@@ -5,9 +5,10 @@ The slides do not turn the hand. The wrist joints therefore follow from the orie
 slides from the remaining position; the wrist axes need not meet in a point. Further slides are rails, held at a
 fixed position.
 
-There are two branches: with and without a flipped wrist. Where the first and last wrist axes are in line, only the
-sum of the two joint angles matters. The first joint then keeps its angle if the last joint can do the rest of the
-turn. In this configuration the hand can still move in any direction, and turn about the common line.
+There are two branches: with and without a flipped wrist. Where the first and last wrist axes are in line, only the sum
+of the two joint angles matters. The first wrist joint then keeps its angle if the last wrist joint can reach the angle
+that completes this sum. In this configuration the hand can still move in any direction, and turn about the common
+line.
 """
 
 import math

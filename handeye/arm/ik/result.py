@@ -40,9 +40,9 @@ class IKResult:
 SLACK: Final = 1e-9  # round-off allowed beyond a joint limit, in rad or m
 WRITTEN: Final = (0.0025 * INCH, 0.0125 * DEGREE)
 """Greatest distance (m) and turn (rad) by which a pose may be off because the pose is written with few digits.
-Distance and turn are combined as the root of the sum of squares. Errors of .0005 in and of .005 degrees in each
-coordinate give at most .96 of the limit. The wrist is 10 in behind the finger tips. The greatest turn moves the wrist
-by less than the greatest distance.
+Distance and turn are combined as the root of the sum of squares. If each coordinate is off by .0005 inch or .005
+degrees, the combination is at most .96 of the limit. The wrist is 10 in behind the finger tips. The greatest turn
+moves the wrist by less than the greatest distance.
 """
 
 
@@ -66,7 +66,7 @@ def shared(first: Joint, last: Joint, sense: float, one: float, other: float) ->
 
     If `sense` is positive, both joints turn the hand in the same direction; otherwise, in opposite directions. There
     is one pair for each possible number of whole turns. The first joint stays at the position `one` if the last joint
-    can do the rest of the turn.
+    can reach the angle that completes the turn of the hand.
     """
     sign, ends, found = math.copysign(1.0, sense), (last.lower, last.upper), []
     turns = math.ceil((first.upper - first.lower + last.upper - last.lower) / (2 * math.pi))

@@ -1,9 +1,9 @@
 """Closed-form inverse kinematics of the Stanford arm (Paul 1981): a shoulder with offset d2, a sliding boom, a
 spherical wrist.
 
-There are four branches: the boom on either side of the column, each with and without a flipped wrist. Where the
-axes of joints 4 and 6 are in line, only the sum of the two joint angles matters. Joint 4 then keeps its angle if
-joint 6 can do the rest of the turn.
+There are four branches: the boom on either side of the column, each with and without a flipped wrist. Where the axes
+of joints 4 and 6 are in line, only the sum of the two joint angles matters. Joint 4 then keeps its angle if joint 6
+can reach the angle that completes this sum.
 """
 
 import math

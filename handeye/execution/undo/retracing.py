@@ -28,8 +28,8 @@ from handeye.touch.guards import ActiveGuard, Reading, Trip
 from handeye.touch.senses import too_early
 
 ALLOWED: Final = 20.0
-"""Least force limit of a reversal (N). We measured the sensed force while a top is lifted off the pins. The greatest
-force was 11 N. With a screw left in the top, the force was 36 N and then 108 N.
+"""Smallest value (N) of the force at which a reversal stops. When the arm lifted a top off the pins, the sensed force
+was at most 11 N. When the screws were still fastened, this force was 36 N in one step, and 108 N in the next.
 """
 SHARE: Final = 1.5  # multiple of the force that the step itself met
 
@@ -79,7 +79,8 @@ class EarlyContact:
 
 RAMP: Final = 8
 """Number of servo periods in which the arm speeds up at the start of the reverse path, and in which it slows down at
-the end. Our choice. A recorded path may lack such a ramp: a motion that a force ended did not slow down at its end.
+the end. Our choice. A recorded path may lack such a ramp: if a force ended the recorded motion, this motion did not
+slow down first.
 """
 JOIN: Final = 5e-4
 """Speed (rad or m per servo period) at which the joints move from the present position to the end of the recorded

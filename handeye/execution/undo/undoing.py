@@ -44,12 +44,12 @@ from handeye.touch.guards import FirstOf, Monitor
 from handeye.touch.senses import EMPTY_GAP, SAME_HOLD, SKEW, as_before, at_least
 
 SUPPORT_SHARE: Final = 0.5
-"""Least force that must support the hand when it returns a screw, as a fraction of the force with which the screw was
-taken.
+"""Force on the hand that shows that a returned screw stands in its place, as a fraction of the force with which the
+hand took the screw.
 """
 STRAIGHTER: Final = 2 * 1.1e-3
-"""Distance (m) by which the gap may change because a carried object straightens between the fingers. Our choice: twice
-the largest measured value.
+"""Distance (m) by which the gap may change because a carried object turns until it lies flat against the fingers. Our
+choice: twice the largest measured value.
 """
 SAME_JOINTS: Final = 1e-4  # rad or m within which an arm is at a loop's entry
 

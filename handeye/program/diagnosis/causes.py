@@ -69,8 +69,8 @@ class HandAstray(CauseRecord, frozen=True, kw_only=True):
 
 
 class HandPushed(HandAstray, frozen=True, kw_only=True):
-    """The hand is off its set-point at the end of a motion in which the screwdriver turned. If a screw turns into or
-    out of its thread faster than the hand moves, the screw pushes or pulls the screwdriver.
+    """The hand is off its set-point at the end of a motion in which the screwdriver turned. If the screw advances or
+    retreats in its thread faster than the hand follows, the screw pushes or pulls the screwdriver.
     """
 
 
@@ -95,8 +95,8 @@ class TravelOutside(CauseRecord, frozen=True, kw_only=True):
 
 
 class HeightOutside(CauseRecord, frozen=True, kw_only=True):
-    """The last motion ended too high or too low. `height` (m) is measured from the place at which the difference
-    `name` was saved.
+    """The last motion ended too high or too low. `height` (m) is the height of the hand above its height at the `SAVE`
+    of the difference `name`.
     """
 
     name: str

@@ -15,7 +15,7 @@ class ReachFailureRecord(Record, frozen=True, tag_field="reason", tag=True):
 
     @property
     def named_joints(self) -> tuple[int, ...]:
-        """The joints that the sentence names."""
+        """The joints that the sentence about this reason names."""
         return ()
 
 
@@ -163,7 +163,7 @@ def reach_sentence(arm: NamedArm, reason: ReachFailure) -> str:
         case FixedOrientation():
             return (
                 f"the hand would have to turn by {enough_digits(reason.angle / DEGREE, 1)} degrees about an axis "
-                f"that the joints of the {arm.name} arm lack"
+                f"for which the {arm.name} arm has no joint"
             )
         case FixedDirection():
             movers = [named(arm, joint) for joint in reason.joints]

@@ -19,7 +19,10 @@ def doubt_sentence(cause: s.SenseCause) -> str:
             held = f"something {inches(cause.gap)} thick holds the fingers apart"
             return f"{_switches(cause.fingers)} open although {held}: {_untouched(cause)}"
         case s.SwitchesCrossed():
-            still = f"still closed after the hand moved {inches(cause.moved)} towards this side, away from the part"
+            still = (
+                f"still closed after the hand moved {inches(cause.moved)} towards the side of this finger, away "
+                "from the part"
+            )
             return (
                 f"{_switches(cause.fingers)} {still}: the two switches are swapped, or the switch of the other "
                 "finger stays open"
@@ -38,20 +41,22 @@ def doubt_sentence(cause: s.SenseCause) -> str:
                 if cause.thickness
                 else ""
             )
-            return f"the gap reads {gap} in on {cause.held}, which is {thick} in thick between the fingers{times}"
+            return f"the gap reads {gap} in, but between the fingers is {cause.held}, which is {thick} in thick{times}"
         case s.DrivesUnlike():
             named = zip(cause.joints, cause.factors, strict=False)
             gives = " and ".join(
                 f"the drive of the {joint.name} gives {factor:.2f} times as much" for joint, factor in named
             )
             return (
-                "the weights of the links, as the drives feel them, have changed: a drive gives more or less torque "
+                "the drives feel other weights of the links than before: either a drive gives more or less torque "
                 f"than commanded ({gives}), or the arm no longer stands upright"
             )
         case s.CurrentUnlike():
             told, known = (torque / OUNCE_INCH for torque in (cause.torque, cause.known))
             times = f"; the reading is {told / known:.1f} times this torque" if known else ""
-            return f"the sensor shows {told:.1f} oz-in, but the motor takes {known:.1f} oz-in{times}"
+            return (
+                f"the sensor shows {told:.1f} oz-in, but the torque of the motor is {known:.1f} oz-in{times}"
+            )
         case s.CurrentShort():
             shown, asked = (torque / OUNCE_INCH for torque in (cause.torque, cause.asked))
             short = f"the sensor shows only {shown:.1f} of the commanded {asked:.1f} oz-in while the motor is stalled"
@@ -72,7 +77,7 @@ def doubt_sentence(cause: s.SenseCause) -> str:
         case s.GapAstray():
             return f"the gap reads {inches(cause.gap)}; the fingers were driven to {inches(cause.goal)}"
         case s.GapStill():
-            driven = f"the fingers were driven together by {inches(cause.driven)}"
+            driven = f"the fingers were driven {inches(cause.driven)} closer together"
             return f"the gap still reads {inches(cause.gap)}; {driven}"
         case s.ForceInAir():
             return _in_air(cause)

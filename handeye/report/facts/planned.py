@@ -127,7 +127,7 @@ def _search(run: RecordedRun, tries: list[tuple[StepStarted, AnyEvent]]) -> Sear
 
 
 class Mover(StrEnum):
-    """The kinds of reasons for shifting a goal."""
+    """What shifted a goal: a saved difference, a part that vision located, or a search."""
 
     SAVE = "saved in"
     LOOK = "seen in"
@@ -221,7 +221,7 @@ def _causes(
 
 
 def _concerns_search(uses: Iterable[Use]) -> bool:
-    """Return True if one of the values that an operation reads or writes is the present search."""
+    """Return True if an operation reads or writes the state of the present search."""
     return any(use.kind == "search" for use in uses)
 
 

@@ -19,8 +19,8 @@ from handeye.trace.forces import Forces
 from handeye.trace.stages import done_steps
 
 FORCE: Final = 0.2
-"""Greatest error (N), in each direction, of the force that the report draws. The error is a tenth of the smallest
-force limit of a guard in use.
+"""Greatest error (N), in each direction, of the force that the report draws. It is a tenth of the smallest force limit
+that a program gives to a guard.
 """
 
 
@@ -53,8 +53,8 @@ class HeldObject:
 
 
 def sensed_forces(run: RecordedRun) -> tuple[SensedForce, ...]:
-    """Return the forces of a run, the earliest first. Returns no forces if the trace contains no motion, or if its
-    forces are not in the axes of the world.
+    """Return the forces of a run, the earliest first. Returns no forces if the trace contains no motion, or if the
+    task gives forces in other axes than those of the world.
     """
     task = known_any(run.trace.head.task)
     if not len(run.trace.times) or (task is not None and task.force_axes != AnyTask.force_axes):

@@ -104,7 +104,9 @@ def _controls(run: RecordedRun) -> Markup:
     speed = element("select", *options, id="speed", aria_label="speed", aria_keyshortcuts="[ ]")
     views = element("div", id="views", role="group", aria_label="view", class_="views")
     box = element("input", type="checkbox", id="sensing", checked=True, aria_keyshortcuts="s")
-    senses = element("label", box, " senses", title="force and path of the hand, searches, pictures: s")
+    senses = element(
+        "label", box, " senses", title="show force and path of the hand, searches and pictures (key S)"
+    )
     return element(
         "div", play, time, now, speed, views, senses, id="controls", class_="controls", hidden=True
     )

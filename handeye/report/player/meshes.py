@@ -36,8 +36,8 @@ class Meshes:
     """
 
     told: list[dict[str, Any]] = field(default_factory=list)
-    """What the page must know about each mesh. `fine` and `coarse` describe the two levels of detail; each gives the
-    index of the first corner of its triangles, and the number of their corners. `scale` is the scale of the points,
+    """What the page must know about each mesh. `fine` and `coarse` are the two levels of detail: for each level, the
+    index of the first corner and the number of corners in the list of triangles. `scale` is the scale of the points,
     and `ball` is the bounding sphere. `parts` gives the name and the range of each piece.
     """
     _points: list[NDArray[np.uint16]] = field(default_factory=list)

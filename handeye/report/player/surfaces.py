@@ -13,8 +13,8 @@ from handeye.core.pose import Array
 
 SIDES: Final = 32  # Sides of the prism that stands for a cylinder
 CREASE: Final = np.cos(np.radians(35.0))
-"""Cosine of the least angle between two faces whose common edge is drawn sharp, and not as part of a curved
-surface.
+"""Cosine of the angle at which an edge between two faces becomes sharp. If the faces meet at a smaller angle, they are
+drawn as one curved surface.
 """
 
 

@@ -1,4 +1,4 @@
-"""Lets ML do legs of a relay: a program in ML moves the tool of the Stanford arm.
+"""Lets ML run legs of a relay: a program in ML moves the tool of the Stanford arm.
 
 The motors have the numbers of the rectilinear arm: 4 is X, 3 is Y, 2 is Z (down), 8 is the roll of a hand that points
 straight down, and 11 is the gap of the fingers. The unit of the slides is .001 inch, and the unit of the roll is .01

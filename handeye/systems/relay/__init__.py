@@ -15,7 +15,7 @@ ENTRY = Entry(
     commands="""
 relay = handeye.systems.relay.cli.commands:relay: Assemble one pump with programs of several systems, which take turns on the same arm.
 trials relay = handeye.systems.relay.cli.commands:relay_trials: Run a relay in many worlds: success rate, and time and force of each leg.
-trials stages = handeye.systems.relay.cli.stages:stages: Do stages of the pump in several languages, from the same states of the same worlds.
+trials stages = handeye.systems.relay.cli.stages:stages: Do stages of the pump in several languages, from the same state in each world.
 """,  # noqa: E501 - a command a line
     sweeps={
         "relay": "handeye.systems.relay.trials:RELAYS",

@@ -76,8 +76,8 @@ def misfits(plan: RelayPlan) -> Iterator[LegFinding]:
 
 
 def inexpressible(plan: RelayPlan) -> Iterator[LegFinding]:
-    """For each leg, yield the lines that the language of the leg cannot express, among the lines of the same stage in
-    the task's own program. Stages are compared by name.
+    """For each leg, look up the stage with the same name in the task's own program. Yield the lines of this stage that
+    the language of the leg cannot express.
     """
     program, file = own_program(plan.task)
     for leg in legs(plan):

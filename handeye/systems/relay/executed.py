@@ -25,7 +25,7 @@ def memories(plan: RelayPlan, state: RelayCore) -> dict[str, SystemState]:
     try:
         return {program.file: getattr(state, program.system)[program.file] for program in plan.programs}
     except KeyError as missing:
-        raise BadFile(f"the state of the run has no memory of {missing}") from None
+        raise BadFile(f"the state of the run lacks the memory of the program {missing}") from None
 
 
 def fits(plan: RelayPlan, state: RelayCore) -> bool:
@@ -74,7 +74,9 @@ def check_order(plan: RelayPlan, state: RelayCore, undoing: ReversalOrder) -> No
     fast = next((leg for leg in reversed(passed) if not leg.system.undoes), None)
     if fast is not None and undoing.left < sum(each.step < fast.numbers.stop for each in done):
         later = passed[fast.index + 1 :]
-        back_to = f"; the arm can undo its steps back to the stage {quoted(later[0].stage)}" if later else ""
+        back_to = (
+            f"; the arm can undo only the steps back to the stage {quoted(later[0].stage)}" if later else ""
+        )
         raise Refused(f"the leg {quoted(fast.stage)}, which {fast.file} has done, cannot be undone{back_to}")
     if undoing.left >= len(done):
         raise Refused("there is nothing to undo")

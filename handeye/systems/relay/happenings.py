@@ -42,8 +42,8 @@ class LegFinished(SystemEvent, frozen=True, kw_only=True):
 
 
 def _kind(system: str, kind: type[SystemEvent]) -> type[SystemEvent]:
-    """Return a copy of a kind of event with the name of the system in its own name, so that no other system has an
-    event of the same name.
+    """Return a copy of a kind of event. The copy's name begins with the name of the system, so that no other system
+    has an event of this name.
     """
     name = f"{system.capitalize()}{kind.__name__}"
     made: Any = msgspec.defstruct(
@@ -59,7 +59,7 @@ OF_LEGS: Final[Mapping[type, type[SystemEvent]]] = {
     if "leg" in entry.can and entry.events
     for kind in loaded(entry.events)
 }
-"""Kinds of events in a relay. The key is the kind of event that the system of the leg reports."""
+"""For each kind of event of a system that can run a leg, the kind of event that the relay reports instead."""
 EVENTS: Final[tuple[Any, ...]] = (LegStarted, LegFinished, *OF_LEGS.values())
 
 

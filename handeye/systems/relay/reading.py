@@ -71,7 +71,7 @@ def _leg(number: int, text: str, span: Span, stages: set[str]) -> LegLine | Diag
         return _mistake(NO_SYSTEM, f"no system has a language for the file {quoted(file)}", span)
     system = PLANNED if entry is None else entry.name
     if entry is not None and "leg" not in entry.can:
-        return _mistake(NO_SYSTEM, f"{entry.title} cannot do a leg of a relay", span)
+        return _mistake(NO_SYSTEM, f"{entry.title} cannot run a leg of a relay", span)
     return LegLine(line=number, span=span, stage=stage, file=file, system=system)
 
 

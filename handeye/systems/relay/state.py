@@ -29,7 +29,7 @@ class RelayCore(SystemState, kw_only=True):
 
 
 def state_type() -> type[RelayCore]:
-    """Return the type of the state of a relay. The state has a field for each system that can do legs. The field has
+    """Return the type of the state of a relay. The state has a field for each system that can run legs. The field has
     the name of the system. Its value is a dictionary from the files of the system's programs to the states of these
     programs.
     """

@@ -90,7 +90,7 @@ class RelaySystem(System):
         return executed(plan, state)
 
     def order(self, plan: RelayPlan, state: RelayCore, undoing: ReversalOrder) -> None:
-        raise BadArgument("a relay can be undone only in the stepper, while it runs")
+        raise BadArgument("the steps of a relay can be undone only in the stepper, while the relay runs")
 
     def calibration(self, state: RelayCore) -> Calibration | None:
         return None if state.station is None else state.station.calibration

@@ -107,8 +107,8 @@ class Microbus:
         return self._bus.status(number_of(name)).name.lower()
 
     def wait(self, name: str | int, seconds: float = 60.0) -> str:
-        """Wait until a microcomputer is not busy, for at most `seconds`. Returns the state of the microcomputer, as
-        `status` does.
+        """Wait for at most `seconds` until a microcomputer is no longer busy. Returns the state of the microcomputer,
+        as `status` does.
         """
         return self._bus.wait_free(number_of(name), _microseconds(seconds)).name.lower()
 

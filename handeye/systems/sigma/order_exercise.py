@@ -29,12 +29,13 @@ class OrderExercise(Exercise):
 
     @property
     def cases(self) -> str:
-        return "every order in which the tasks may run; motions may take any time"
+        return "every order in which the tasks may run; a motion may take any length of time"
 
     @property
     def rules(self) -> tuple[str, ...]:
         return (
-            f"Each task keeps every {', '.join(_WORK[:-1])} and {_WORK[-1]}, and keeps their order.",
+            f"Each task must still have every {', '.join(_WORK[:-1])} and {_WORK[-1]} that it has at the start, in "
+            "the same order.",
             "Each line is executed in at least one order, and the program ends.",
         )
 

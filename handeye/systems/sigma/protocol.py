@@ -203,7 +203,7 @@ def echo(name: str | int, pattern: bytes) -> Command:
 
 
 def sense(name: str | int) -> Command:
-    """Make the question for the reading of a newer kind of sensor."""
+    """Make the question for the reading of a sensor whose answer may have any length."""
     return Command(number=number_of(name), op=Op.SENSE)
 
 

@@ -27,7 +27,7 @@ CALCULATIONS: Final = (0, 10, 100, 1000)  # numbers of calculations between two 
 
 
 class PaperRow(Record, frozen=True, kw_only=True):
-    """A row of the printed table, and the number of steps of the move that layer 1 repeats."""
+    """A row of the printed table, and the length (steps) of the move with which layer 1 reproduces this row."""
 
     name: str
     job: str

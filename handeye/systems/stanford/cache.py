@@ -18,7 +18,9 @@ _AGES: Final = ((86400.0, "d"), (3600.0, "h"), (60.0, "min"), (1.0, "s"))
 
 def cache(
     *,
-    clear: Annotated[bool, Parameter(help="Remove all kept calibrations and start states.")] = False,
+    clear: Annotated[
+        bool, Parameter(help=("Remove all kept calibrations, and all kept states in which episodes start."))
+    ] = False,
     json: Json = False,
 ) -> int:
     """List the kept camera calibrations and start states, or remove them.

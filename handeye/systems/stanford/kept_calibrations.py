@@ -134,7 +134,7 @@ def _decoded(data: bytes, wanted: Conditions) -> Preparation:
     """Return the preparation in a file. Raises ValueError if the preparation was made under other conditions."""
     line, _, rest = data.partition(b"\n")[2].partition(b"\n")
     if line != wanted.line or data != sealed(MAGIC, VERSION, line + b"\n" + rest):
-        raise ValueError("it is damaged, or was made under different conditions")
+        raise ValueError("the kept calibration is damaged, or was made under different conditions")
     return unpacked(rest, Preparation, LARGEST)
 
 

@@ -1,4 +1,4 @@
-"""Lets the system of 1973 do legs of a relay: each leg is a stage of a plan of motions."""
+"""Lets the system of 1973 run legs of a relay: each leg is a stage of a plan of motions."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path

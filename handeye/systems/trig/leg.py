@@ -1,4 +1,4 @@
-"""Lets TRIG do legs of a relay. In a leg, a TRIG program moves the tool of the Stanford arm instead of the Purbrick
+"""Lets TRIG run legs of a relay. In a leg, a TRIG program moves the tool of the Stanford arm instead of the Purbrick
 arm.
 
 TRIG's platter is a part of the table: its centre is at x = 20 and y = 36.5 in. X, Y and Z are parallel to the axes of

@@ -16,7 +16,10 @@ from handeye.systems.trig.run.plan import typed
 REFUSED: Final = "line-refused"
 UNSOUND: Final = "program-unsound"
 _CODES: Final = {
-    REFUSED: "a line of a script fails, even on an arm without physics; the following lines were not checked",
+    REFUSED: (
+        "a line of a script fails on an arm without physics, on which the check executes the script; the following "
+        "lines were not checked"
+    ),
     UNSOUND: "the file does not contain a valid program in the form that the command W writes",
 }
 

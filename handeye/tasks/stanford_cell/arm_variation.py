@@ -101,8 +101,8 @@ def arm() -> Iterator[Quantity]:
             "1974."),
         group("arm.tachometer_noise", numbered(Noise, 2e-5, 2e-5, 1e-5, 2e-5, 2e-5, 2e-5), _RATES,
             "Noise of the tachometers, before the converter.",
-            unsourced="no data sheet of the arm's tachometers is known. Bound: a step of the converter, which is 37 to "
-                      "146 times this noise, so the converter does not show the noise."),
+            unsourced="no data sheet of the arm's tachometers is known. Bound: a step of the converter. One step is "
+            "37 to 146 times this noise, so the converter does not show the noise."),
         group("arm.tachometer_step", numbered(Step, *rate_step(STANFORD).tolist()), _RATES,
             f"One step of the converter of a tachometer: {SENSE_BITS} bits over the range of the joint's speeds in "
             "both directions. Data sheet of 1974; we infer that the range ends at the greatest speed."),
@@ -130,8 +130,8 @@ def arm() -> Iterator[Quantity]:
         group("arm.mass_centre", numbered(Uniform, *[5.0] * 6), "%",
             "Distance between a link's centre of mass and its joint: relative deviation of the true distance from "
             "the controller's value.", least=-90.0,
-            unsourced="the centres of mass were also published without a tolerance. To correct the errors of these "
-            f"centres, the arm weighs its links. {DOUBLED}"),
+            unsourced="the centres of mass, like the masses, were published without a tolerance. To correct the "
+            f"errors of these centres, the arm weighs its links. {DOUBLED}"),
         group("arm", {"hand_length": Uniform(0.02)}, "in",
             "True length of the hand minus the controller's value.",
             unsourced="no drawing gives the tolerance. A length like this is measured with a steel rule, which "
@@ -168,8 +168,8 @@ def _friction() -> Iterator[Quantity]:
 def hand() -> Iterator[Quantity]:
     return chain(
         group("hand", {"gap_offset": Normal(0.01)}, "in", "Offset of the gap reading.",
-            unsourced="the offset is the wear of the finger pads since the gap was last set, and this wear was never "
-                f"measured. {DOUBLED}"),
+            unsourced="the offset is due to the wear of the finger pads since the gap was last set, and this wear "
+            f"was never measured. {DOUBLED}"),
         group("hand", {"gap_scale": Normal(0.5)}, "%",
             "Scale error of the gap reading. The size of the error is between the linearity of wire-wound "
             "potentiometers, .15 to .25 %, and the linearity of conductive plastic, 1 to 2 %: data sheets of "
@@ -181,8 +181,8 @@ def hand() -> Iterator[Quantity]:
         group("hand", {"gap_step": Step(STANFORD.hand.gap_max / UNITS["in"].size / 2**SENSE_BITS)}, "in",
             f"One step of the converter of the gap: {SENSE_BITS} bits over the full opening. Data sheet of 1974."),
         group("hand.switch_force", {"plus_y": Normal(0.4), "minus_y": Normal(0.4)}, "oz",
-            "Force at which a finger's switch closes. Our notes on the system of 1973 infer a few ounces, and suggest "
-            "2 oz for a simulation.",
+            "Force at which a finger's switch closes. Our notes on the system of 1973 estimate this force at a few "
+            "ounces, and suggest 2 oz for a simulation.",
             nominal=2.0, least=0.0),
         group("hand.lamp", {axis: Normal(0.03) for axis in "xyz"}, "in",
             "Deviation of the lamp's position in the hand's frame from the drawing that the camera calibration uses.",

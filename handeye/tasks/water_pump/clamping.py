@@ -109,8 +109,8 @@ class Clamping(Mechanism[ClampingState]):
         return False
 
     def _of_outsiders(self, geoms: NDArray[np.int32]) -> list[list[tuple[int, float]]]:
-        """For each layer that is touched by bodies outside the stack, return the contacts with these bodies, each with
-        a sign. The force on the layer is the contact force times this sign.
+        """Return the contacts of layers with bodies outside the stack: one list for each layer with such contacts.
+        Each contact has a sign; the force on the layer is the contact force times this sign.
         """
         first, second = geoms.T
         touched = [

@@ -21,7 +21,9 @@ from handeye.tasks.water_pump.scene.textures import add_textures
 from handeye.tasks.water_pump.world.pump_world import PumpWorld
 
 RENAMED: Final = {"pin0": "pin1", "pin1": "pin2"}
-"""Exported names of bodies and of their joints, by their names in the scene."""
+"""The bodies that the export renames, together with their joints. The keys are the names in the scene, and the values
+are the names in the export.
+"""
 _METAL: Final = {
     "base.casting.density": ("casting", "floor_2"),
     "base.plate.density": ("base_plate",),
@@ -67,7 +69,7 @@ def exported(world: PumpWorld, truth: Truth, keyframe: str) -> ExportedScene:
 
 
 def _densities(spec: mujoco.MjSpec, cast: float) -> dict[str, float]:
-    """Return the densities (kg/m3) of the solids that consist of one metal. `cast` is the factor by which the
+    """Return the densities (kg/m3) of the solids that consist of a single metal. `cast` is the factor by which the
     densities of base and top differ from the design in this world.
     """
     steel = spec.find_default("shank")

@@ -1,5 +1,5 @@
-"""Executes schedules, and checks invariants after each. If a schedule fails, its elements are removed one by one, as
-long as the schedule still fails.
+"""Executes schedules, and checks invariants after each. If a schedule fails, its elements are removed one by one. An
+element without which the schedule does not fail stays in the schedule.
 """
 
 import tempfile
@@ -125,8 +125,8 @@ class ScheduleResult(Record, frozen=True, kw_only=True):
     ended: str  # The kind of its last pause; `error`: an exception that should never occur
     broken: tuple[Violation, ...]
     unseen: tuple[Violation, ...] = ()
-    """Failed findings on a pump that the program reported as right, if the program could not notice the damage: a
-    fault of the schedule spoiled the pump after the program's last look at the pump, or the damage was too small.
+    """Failed findings that the program could not notice, on a pump that it reported as right. Either a fault of the
+    schedule spoiled the pump after the program's last look at it, or the damage was too small.
     """
 
     @property
@@ -212,8 +212,8 @@ def _silent(schedule: Schedule, carried: ScheduleRun, start: Checkpoint) -> tupl
 
 
 def _late(failed: Findings, schedule: Schedule, runner: Runner, start: Checkpoint) -> set[str]:
-    """Return the names of the findings that failed because faults of the schedule spoiled the work after the program's
-    last look.
+    """Return the names of the findings that failed because faults of the schedule spoiled the work when the program no
+    longer sensed it.
     """
     task, plan, world = runner.task, runner.setup.plan, runner.setup.world
     kinds = [task.faults(world).kind(fault.name) for fault in schedule.given(task.faults(world))]

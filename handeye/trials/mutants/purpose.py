@@ -19,9 +19,9 @@ def faults_for(
     mutant: Mutant, program: Program, graph: OutcomeGraph, catalogue: Catalogue, most: int
 ) -> list[Fault]:
     """Return faults that the program should notice by the check that a mutant lacks. `most` is the greatest number of
-    faults to return. Faults that can begin at the mutant's stage come first, because their runs are short. Within each
-    of these two groups, the faults that the fewest errors and calls identify come first. Of faults that differ only in
-    a number, only the first is returned.
+    faults to return. Faults that can begin at the mutant's stage come first, because their runs are short. Among these
+    faults, and among the others, those with the fewest expected errors and calls come first. Of faults whose names
+    differ only in numbers, only the first is returned.
     """
     calls, stops = calls_of(mutant.steps, program, graph)
     kinds = [

@@ -72,7 +72,7 @@ def _unmeasured(_: Program, step: Step) -> Step | None:
 
 
 def _wider(_: Program, step: Step) -> Step | None:
-    """Double the range of a check about its middle."""
+    """Double the range of a check, and keep the middle of the range. The minimum length of a motion is at least 0."""
     operation = step.operation
     if not isinstance(operation, Height | Travel):
         return None

@@ -134,8 +134,8 @@ class Campaign:
         return rows
 
     def world(self, condition: str, point: Point) -> WorldSpec:
-        """Return the world of a point. At level 0, this is the world of a seed, as every other command makes it from
-        this seed.
+        """Return the world of a point. At level 0, this is the world of seed `point.noise`: the same world that every
+        other command makes from this seed.
         """
         if condition == FIRST:
             return replace(self.trial.world, seed=point.noise)

@@ -1,4 +1,4 @@
-"""Of the worlds in which a program fails, finds the worlds nearest to the middle of all quantities. Also finds the
+"""Finds the worlds in which a program fails and which are nearest to the middle of all quantities. Also finds the
 quantities that make the program fail.
 
 A world in which the program fails differs from the middle in every quantity, although only a few quantities matter.
@@ -38,8 +38,8 @@ class NearWorld(Record, frozen=True, kw_only=True):
 
 
 class Push(Record, frozen=True, kw_only=True):
-    """How far one quantity lies, on average, from its middle value in failing worlds, in standard deviations. The
-    signs show whether the program fails mostly at greater or at smaller values of this quantity.
+    """How far one quantity lies, on average, from its middle value in failing worlds, in standard deviations. The sign
+    of a mean deviation shows whether the program fails mostly at greater or at smaller values of this quantity.
     """
 
     quantity: str
@@ -60,7 +60,9 @@ class _Descent:
 
 
 def nearest(campaign: Campaign, kind: FailureKind, count: int, rounds: int) -> list[NearWorld]:
-    """Search from the `count` failing worlds whose errors are smallest, with at most `rounds` runs for each world."""
+    """Find nearer failing worlds. There is one search for each of the `count` failing worlds whose errors are
+    smallest. The search begins at that world, and makes at most `rounds` runs.
+    """
     descents = [_begun(campaign, each, rounds) for each in _chosen(campaign, kind, count)]
     for number in range(rounds):
         active = [each for each in descents if each.candidate is not None]
@@ -105,7 +107,7 @@ def simplified(numbers: Array, groups: Sequence[Sequence[int]], tries: int) -> G
 
 def pushes(campaign: Campaign, kind: FailureKind, found: Sequence[NearWorld]) -> list[Push]:
     """Return, for each quantity, how far it deviates from its middle value in the failing worlds. The quantity that
-    must deviate in most of the nearest worlds comes first.
+    must deviate in the largest number of the nearest worlds comes first.
     """
     mine = [each for each in campaign.failing if each.kind == kind]
     if not mine:

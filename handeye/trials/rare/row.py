@@ -62,8 +62,8 @@ class Margin:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Usual:
-    """The usual reserves: for each part of a margin, the median over the runs of the first level. The medians make the
-    parts comparable.
+    """The usual reserves: for each part of a margin, the median over the runs of the first level. Divided by
+    its median, each part is a number without a unit, so that parts can be compared.
     """
 
     program: Mapping[str, float]

@@ -74,7 +74,7 @@ def test_it_is_refused_in_words_where_there_is_no_axis(names: tuple[str, ...]) -
     refused = solve(arm, turned, arm.middle)
     assert isinstance(refused.reason, FixedOrientation)
     assert refused.message(arm) == (
-        "the hand would have to turn by 20.0 degrees about an axis that the joints of the slides arm lack"
+        "the hand would have to turn by 20.0 degrees about an axis for which the slides arm has no joint"
     )
 
 

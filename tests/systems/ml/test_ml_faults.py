@@ -100,7 +100,7 @@ def test_a_fault_that_has_begun_goes_on_after_a_restore() -> None:
     stuck = arm.read(8)[-1].q[Y]
     other.station.cell().restore(arm.station.cell().capture())
     assert {reading.q[Y] for reading in other.read(3)} == {stuck}
-    with pytest.raises(BadFile, match="the saved arm has other faults than this arm"):
+    with pytest.raises(BadFile, match="the faults of the saved arm are not those of this arm"):
         Readings("motor.y.dead").station.cell().restore(arm.station.cell().capture())
 
 

@@ -31,7 +31,7 @@ from handeye.systems.relay.state import RelayCore
         ('STAGE " " a.al', "the stage has no name"),
         ('STAGE "a" a.al\nSTAGE "a" b.al', "the stage `a` is done by an earlier leg"),
         ('STAGE "a" a.py', "no system has a language for the file `a.py`"),
-        ('STAGE "a" a.relay', "the relay cannot do a leg of a relay"),
+        ('STAGE "a" a.relay', "the relay cannot run a leg of a relay"),
         ('STAGE "a" /a.al', "`/a.al` must be a path from the folder of the relay"),
         ("; nothing", "the relay has no legs"),
     ],

@@ -161,7 +161,7 @@ def test_the_statistics_are_a_command(command: Command) -> None:
         ("dead:FORCE2", "FORCE2: it is dead: it does not answer"),
         ("stuck-high:1:3", "segment 1: data line 3 is stuck high"),
         ("clock:HAND2:-100", "HAND2: its clock is wrong"),
-        ("address:X1:1", "X1: it answers to the number of Y1"),
+        ("address:X1:1", "X1: it answers to Y1's number instead of its own"),
         ("status-a:Y2:1", "status line of Y2: line A is high, although no motion was aborted"),
         *((f"stuck-low:0:{bit}", f"segment 0: data line {bit} is stuck low") for bit in range(8)),
     ],

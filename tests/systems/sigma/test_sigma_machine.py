@@ -147,7 +147,7 @@ def test_origin_finds_out_whether_a_motor_has_missed_a_command() -> None:
         go_on(ran, 1)
     machine.memory.motors[NUMBERS["X1"]].count -= 1
     go_on(ran)
-    assert ran.fault == "line 30: WRONGCOUNT: X1 has counted 49.95 mm, and was sent to 49.99 mm"
+    assert ran.fault == "line 30: WRONGCOUNT: the count of X1 is 49.95 mm, but X1 was sent to 49.99 mm"
     ran.vm.retry()
     assert go_on(ran).printed == ["0"]
 
@@ -246,7 +246,7 @@ def test_the_hand_over_leaves_the_central_computer_idle_for_most_of_the_time() -
         ("SPEED Z1, 0 - 4", "a speed limit must be between 0 and 2400 mm/s, not -4"),
         ("MOVE X1 BY 5 SLOW 1 / 2", "a constant speed must be between 2 and 254 mm/s, not 0.5"),
         ("ACTUATE HAND1 = 1 / 2", "HAND1 takes a whole number from 0 to 65535, not 0.5"),
-        ("GOSUB 10", "1000 GOSUBs are active: a subroutine does not RETURN"),
+        ("GOSUB 10", "1000 GOSUBs are active: a subroutine never reaches its RETURN"),
         ("FOR I = 1 TO 2 STEP 0", "a FOR with a STEP of 0 never ends"),
     ],
 )  # fmt: skip

@@ -195,7 +195,7 @@ def test_the_kill_switch_records_nothing() -> None:
 @pytest.mark.parametrize(
     ("line", "sentence"),
     [
-        ("MOVE A", "there is no command `MOVE`; HELP lists them"),
+        ("MOVE A", "there is no command `MOVE`; HELP lists the commands"),
         ("GRAPS", "there is no command `GRAPS`; did you mean GRASP?"),
         ("GRASP A", "`GRASP` takes no further operand; remove `A`"),
         ("GOPOS", "`GOPOS [-]POS` needs the name of a position"),

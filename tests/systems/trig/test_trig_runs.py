@@ -339,7 +339,7 @@ def test_the_stepper_tells_of_a_taught_program_what_is_true_of_it(monkeypatch: p
     called = stepper.do("undo 3")
     assert (
         called.said
-        == "the program calls the operator: answer `proceed`, `retry` or `abort`, go back, or `undo`"
+        == "the program calls the operator: answer `proceed`, `retry` or `abort`, or use `back` or `undo`"
     )
     said: list[str] = []
     answers = Ask(iter(["s", "a"]), said.append)

@@ -67,7 +67,9 @@ def test_a_script_that_makes_other_steps_in_a_world_is_refused(monkeypatch: pyte
     monkeypatch.setattr(NoArm, "_met", lambda *_: None)  # the branch is now the normal one on the ideal arm
     plan = TaughtPlan(job="arrange", script=FEELS)
     setup = Setup(system="trig", plan=plan, world=WorldSpec(seed=1), camera="auto", judged=False)
-    with pytest.raises(Refused, match=r"in this world the script teaches different steps.* step 3, `FEEL G`"):
+    with pytest.raises(
+        Refused, match=r"in this world, the script teaches steps that differ .* step 3, `FEEL G`"
+    ):
         Runner(Checkpoint(setup=setup))
 
 

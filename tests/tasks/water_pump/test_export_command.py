@@ -126,7 +126,7 @@ def test_a_run_brings_its_own_world(command: Command, ended: tuple[Path, Runner]
     code, _, err = command("export", "mjcf", str(ended[0]), "--seed", "3", "-o", "a")
     assert code == 2
     assert err.endswith(
-        "brings its own world; --seed, --level, --without, --set and --scale cannot be given with it\n"
+        "has its own world; --seed, --level, --without, --set and --scale cannot be given with it\n"
     )
 
 

@@ -225,7 +225,7 @@ class RectilinearArm(Axes, Mechanism[ArmState]):
     def check(self, state: ArmState) -> None:
         slides = (state.goal, state.ways, state.motions, state.offsets)
         if any(len(each) != len(_SLIDE_NAMES) for each in slides):
-            raise BadFile("the saved arm has a different number of slides from this arm")
+            raise BadFile("the saved state is the state of an arm with a different number of slides")
         if (
             not np.isfinite((*state.goal, *state.offsets, state.ranged)).all()
             or {*state.ways} - {-1, 0, 1}

@@ -13,8 +13,8 @@ WIDE: Final = 0.014  # m: side of a bar, along its x and z axes
 DENSITY: Final = 2700.0  # kg/m3: a bar weighs 26.5 g
 
 SOFT: Final = [0.0, 0.99, 0.0005, 0.5, 2.0]
-"""Impedance of a contact that begins softly. Over the first half millimetre, the impedance rises from 0 to the value
-of other contacts.
+"""Impedance of a contact that begins softly. While the bars sink the first half millimetre into each other, the
+impedance rises from 0 to the value of other contacts.
 
 If a bar lies on the edges of other bars, its contacts are at corners, and these contacts come and go. If the impedance
 begins at .95 instead of 0, such a bar rocks for ever, at up to 16 mm/s, and keeps the pile awake.

@@ -155,7 +155,7 @@ class FaultyArm(RectilinearArm):
     def check(self, state: ArmState) -> None:
         super().check(state)
         if any(each.fault not in self._faults or len(each.q) != len(AXES) for each in state.onsets):
-            raise BadFile("the saved arm has other faults than this arm")
+            raise BadFile("the faults of the saved arm are not those of this arm")
 
     def restore(self, state: ArmState) -> None:
         self._onsets = {each.fault: each for each in state.onsets}

@@ -30,10 +30,10 @@ THICK: Final = (
 PADS: Final = [0.999, 0.999, 0.0005, 0.5, 2.0]
 """Impedance of the contacts of fingers that hold light parts firmly.
 
-In MuJoCo, contacts held by friction creep. With the arm's usual impedance of .95 to .99, a part that is held aslant
-turns. If a freeze then stops the fingers, they lose a quarter to a third of their force each half second. With the
-impedance given here, they lose 1 percent. With this impedance, however, the fingers shake out a part of .5 kg. With an
-impedance of .9999, they shake out even a part of 26 g.
+In MuJoCo, a contact that only friction holds creeps. With the arm's usual impedance of .95 to .99, a part turns if the
+fingers hold it aslant. If a freeze then stops the fingers, they lose a quarter to a third of their force each half
+second. With the impedance given here, they lose only 1 percent of their force. With this impedance, however, the
+fingers shake out a part of .5 kg. With an impedance of .9999, they shake out even a part of 26 g.
 """
 _ENAMEL: Final = [0.45, 0.33, 0.24, 1]
 _COLOURS: Final = {"good": [0.30, 0.45, 0.32, 1], "bad": [0.52, 0.26, 0.24, 1]}
@@ -98,7 +98,7 @@ def _solve_densely(spec: mujoco.MjSpec) -> None:
 
     MuJoCo 4.0.0 factorises the sparse Hessian wrongly for some patterns of contacts, for example if fingers touch
     parts of a pile, and these parts touch each other. Newton's method then ends after 100 iterations without a
-    solution, and a part leaves the pile at 1000 rad/s.
+    solution, and the wrong forces throw a part out of the pile, spinning at 1000 rad/s.
     """
     spec.option.jacobian = mujoco.mjtJacobian.mjJAC_DENSE
 

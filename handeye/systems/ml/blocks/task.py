@@ -53,7 +53,13 @@ VARIATION: Final = Variation(
     quantity(
         _TURNED, "deg", Noise(2.0), 15.0, "Standard deviation of a block's rotation. No source: our choice."
     ),
-    quantity(_SIZE, "mm", Noise(0.1), 1.0, "Standard deviation of a block's side. No source: our choice."),
+    quantity(
+        _SIZE,
+        "mm",
+        Noise(0.1),
+        1.0,
+        ("Standard deviation of the length of a block's side. No source: our choice."),
+    ),
     quantity(
         _FRICTION,
         "",

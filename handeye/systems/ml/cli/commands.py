@@ -1,4 +1,4 @@
-"""The commands of MOS and ML: run and check a program, assemble a symbolic one, and open the terminal of 1975."""
+"""The commands of MOS and ML: run and check a program, assemble a symbolic program, and open the terminal of 1975."""
 
 from collections.abc import Callable
 from functools import partial
@@ -25,7 +25,7 @@ from handeye.systems.ml.happenings import Printed
 from handeye.systems.ml.language.check import checked
 from handeye.systems.ml.run.plan import ArmName
 
-MlFile = Annotated[Path, Parameter(help="A program in ML, `.ml`.")]
+MlFile = Annotated[Path, Parameter(help="An ML program (`.ml`).")]
 
 ml = App(
     name="ml",
@@ -63,9 +63,9 @@ def run(
     sense: Annotated[
         list[str] | None,
         Parameter(
-            help="What a sensor or an interlock reads. `8=1200`: sensor 8 reads 1200. `panic=1`: the panic button is "
-            "pressed. `5=500@3:2750`: sensor 5 reads 500 while motor 3 is at 2750 or farther from 0. `door=1@.5s`: the "
-            "door is open from .5 s on. Give --sense once for each reading."
+            help="What a sensor or an interlock reads. `8=1200`: sensor 8 reads 1200. `panic=1`: the panic button "
+            "is pressed. `5=500@3:2750`: sensor 5 reads 500 while motor 3 is at 2750 or farther away from 0. "
+            "`door=1@.5s`: the door is open from .5 s on. Give --sense once for each reading."
         ),
     ] = None,
     options: RunOptions = USUAL_RUN,
@@ -111,7 +111,7 @@ def reported(source: Source, *, first: int | None, left: int | None) -> bool:
 
 
 def check(
-    file: Annotated[Path, Parameter(help="A program in ML, `.ml`, or a symbolic program, `.sym`.")],
+    file: Annotated[Path, Parameter(help="An ML program (`.ml`) or a symbolic program (`.sym`).")],
     /,
     *others: Annotated[
         Path,
@@ -192,7 +192,7 @@ def words(word: str | None = None, /) -> int:
 
 
 def console(
-    file: Annotated[Path | None, Parameter(help="A program in ML to load at the start, `.ml`.")] = None,
+    file: Annotated[Path | None, Parameter(help="An ML program (`.ml`) to load at the start.")] = None,
     /,
     *,
     left: Annotated[

@@ -73,9 +73,9 @@ def take_from_bin(
 
     `plans/bin.ml` finds the highest parts with the range finder, and grasps them with guarded moves, which stop at a
     contact. From the separation and the strain of the fingers, the program learns whether the hand holds one good
-    part, one bad part, no part or several parts. The program puts good and bad parts into two boxes, until the range
-    finder shows that the bin is empty. A referee then checks that each part is in the right box, and that no part is
-    left in the bin or lies elsewhere.
+    part, one bad part, no part or several parts. The program puts good parts into one box and bad parts into another,
+    until the range finder shows that the bin is empty. A referee then checks that each part is in the right box, and
+    that no part is left in the bin or lies elsewhere.
 
     Exit code 0: right; 1: the program has stopped because it could not get a part, or has lost one; 3: it has ended,
     but the referee disagrees; 2: bad input; 130: interrupted.

@@ -1,4 +1,4 @@
-"""Reads the values of sensors and interlocks, for a run with perfect motors, from the command line."""
+"""Reads the option --sense: values that the user gives for sensors and interlocks in a run with perfect motors."""
 
 import re
 from typing import Final
@@ -15,8 +15,9 @@ FORM: Final = "SENSOR=READING, SENSOR=READING@MOTOR:POSITION or SENSOR=READING@S
 
 
 def sensed(text: str) -> Stimulus:
-    """Parse a value of --sense, which says what a sensor or an interlock reads, and when: at all times, after a given
-    time, or while a motor is at a given position or farther from 0. Raises BadArgument if the text has another form.
+    """Parse a value of --sense. It says what a sensor or an interlock reads, and when: at all times, after a given
+    time, or while a motor is at a given position or farther away from 0. Raises BadArgument if the text has another
+    form.
     """
     match = _FORM.fullmatch(text)
     if match is None or not all(fits(int(each or 0)) for each in (match[2], match[4])):

@@ -47,7 +47,9 @@ def tables(
     arm: Annotated[Side | None, Parameter(help="The arm, if there are two. Default: the right one.")] = None,
     sense: Annotated[
         list[str] | None,
-        Parameter(help="What a sensor or interlock reads while a program runs, as in `handeye ml run`."),
+        Parameter(
+            help="What a sensor or interlock reads while a program runs. The form is that of `handeye ml run`."
+        ),
     ] = None,
     json: Json = False,
 ) -> int:
@@ -69,7 +71,9 @@ def tables(
         done = _ran(file, sense)
     else:
         if sense:
-            raise BadArgument("--sense applies only to a program (.ml), which this command runs")
+            raise BadArgument(
+                "--sense applies only to a program (.ml), because only a program is run by this command"
+            )
         done = _recorded(run_or_newest(file))
     cycle = _cycle(at, done)
     if table is None:

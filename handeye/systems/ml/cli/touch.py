@@ -44,9 +44,10 @@ def touch(
     """Simulate a guarded touch on a block. Show how far the hand moves on after the contact, and with what force it
     presses.
 
-    The hand descends until the reading of a strain gauge is beyond its limit. The simulation shows what the ten
-    milliseconds of MOS mean: after the contact, the slide moves on until the sensors are read again. Then it moves on
-    until its servo has caught up with the set-point. `docs/ten_milliseconds.md` has the figures.
+    The hand descends until the reading of a strain gauge is beyond its limit. The simulation shows the effect of
+    reading the sensors only every ten milliseconds, as MOS does: after the contact, the slide moves on until the
+    sensors are read again. Then it moves on until its servo has caught up with the set-point.
+    `docs/ten_milliseconds.md` has the figures.
 
     Exit code 0: simulated; 2: bad input.
     """

@@ -35,8 +35,8 @@ def train(
 
     `plans/train.ml` grasps each vehicle along y and then along x, so that the vehicle lies in the middle of the hand.
     The program lowers the peg of each wagon into the hole of the vehicle ahead; if a peg does not go in, the program
-    tries places beside the hole. Then it pulls the engine by 50 mm. A referee checks that both wagons have followed
-    the engine.
+    tries places beside the hole. Then the hand pulls the engine forward by 50 mm. A referee checks that both wagons
+    have followed the engine.
 
     Exit code 0: right; 1: the program has stopped before its end; 3: it has ended, but the referee disagrees; 2: bad
     input; 130: interrupted.

@@ -12,9 +12,7 @@ from handeye.systems.ml.run.plan import ArmName
 
 
 def view(
-    program: Annotated[
-        str, Parameter(help="A program in ML, `.ml`, or the name of a job, such as `follow`.")
-    ],
+    program: Annotated[str, Parameter(help="An ML program (`.ml`), or the name of a job, such as `follow`.")],
     /,
     *,
     arm: Annotated[
@@ -23,22 +21,24 @@ def view(
     seed: Annotated[WholeNumber, Parameter(help="Seed of the world of the simulated arm.")] = 0,
     variant: Annotated[str, Parameter(help="Variant of the job, such as the outline for `follow`.")] = "",
     sense: Annotated[
-        list[str] | None, Parameter(help="What a sensor or interlock reads, as in `handeye ml run`.")
+        list[str] | None,
+        Parameter(help="What a sensor or interlock reads. The form is that of `handeye ml run`."),
     ] = None,
     port: Annotated[WholeNumber, Parameter(help="Port on this computer; 0 for any free port.")] = 0,
     out: Out = None,
     overwrite: Overwrite = False,
 ) -> int:
-    """Step a run in the browser, and see all tables of its machine while the run goes on.
+    """Step through a run in the browser, and see all tables of its machine while the run goes on.
 
-    Words of the tables that changed in the cycle are highlighted. You can look back at any earlier cycle. A value that
-    you write into a word takes effect in the next cycle, even while the arm moves: `MT 3 4` is the goal of motor 3,
-    `MT 2 8` the speed of motor 2, and `ST 7 9` a limit of sensor 7. Each written word is an event of the run, so a
-    repetition of a recorded run writes the word again.
+    In the tables, each word that changed in the cycle is highlighted. You can look back at any earlier cycle. A value
+    that you write into a word takes effect in the next cycle, even while the arm moves: `MT 3 4` is the goal of motor
+    3, `MT 2 8` the speed of motor 2, and `ST 7 9` a limit of sensor 7. The run records each word that you write, so a
+    repetition of the run writes the word again.
 
     Prints the address to open, which contains a secret and works only on this computer.
 
-    Exit code 0: the program has ended, or you left; 1: an error or an emergency has stopped it; 2: bad input.
+    Exit code 0: the program has ended, or you ended the command; 1: an error or an emergency has stopped it; 2: bad
+    input.
     """
     from handeye.cli.job import Job, work
     from handeye.core.variation import WorldSpec

@@ -21,9 +21,7 @@ ROUND: Final = 4  # left turns minus right turns in a circuit
 NEAR: Final = 1.5 * STEP  # greatest distance from the first touch to the touch that closes a circuit
 IDLE: Final = 40  # a follower is lost after this number of squares without a touch
 ALONE: Final = 19  # statements (eight steps) without any touch; a plate is at most six steps ahead
-NOTHING: Final = (
-    "the wand has touched nothing on its way to the plate: there is no plate, or the wand does not signal"
-)
+NOTHING: Final = "the wand has touched nothing: there is no plate ahead of it, or the wand does not signal"
 EVERYWHERE: Final = (
     "the wand signals wherever it goes: either its switch is stuck, or walls are all around it"
 )
@@ -73,7 +71,10 @@ class Felt(Record, frozen=True, kw_only=True):
         if self.turns <= -2 * ROUND:
             return EVERYWHERE
         if self.missed >= ROUND * IDLE:
-            return f"the wand has gone around {counted(self.missed // ROUND, 'square')} of one step and touched nothing"
+            return (
+                f"the wand has gone around {counted(self.missed // ROUND, 'square')} with sides of one step and "
+                "touched nothing"
+            )
         if self.statements >= LONGEST:
             return f"the circuit is still open after {counted(self.statements, 'statement')}"
         return ""
@@ -83,8 +84,8 @@ class Felt(Record, frozen=True, kw_only=True):
         """The end of the run in words."""
         felt = (
             f"{counted(len(self.touches), 'touch')}, {counted(self.left, 'left turn')}, "
-            f"{counted(self.right, 'right turn')}, {counted(self.idle, 'square')} of one step around which the wand "
-            "touched nothing"
+            f"{counted(self.right, 'right turn')}, {counted(self.idle, 'square')} (sides of one step) without a "
+            "touch"
         )
         if self.closed:
             return f"the circuit is closed: {felt}"

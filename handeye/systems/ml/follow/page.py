@@ -54,8 +54,8 @@ def follow_page(done: FollowReport, parts: Sequence[PagePart] = ()) -> bytes:
     felt = done.felt
     facts = (
         f"MOS and ML, on the rectilinear arm in the world of {done.world}; {counted(len(felt.touches), 'touch')}, "
-        f"{counted(felt.left, 'left turn')}, {counted(felt.right, 'right turn')}, {counted(felt.idle, 'square')} of "
-        f"one step around which the wand touched nothing, in {counted(felt.statements, 'statement')}."
+        f"{counted(felt.left, 'left turn')}, {counted(felt.right, 'right turn')}, {counted(felt.idle, 'square')} "
+        f"(sides of one step) without a touch, in {counted(felt.statements, 'statement')}."
     )
     body = element(
         "body",

@@ -130,7 +130,7 @@ class _Assembler:
             raise _Mistaken(mistake("name-twice", f"{quoted(name)} is already defined", span))
 
     def text(self) -> str:
-        """Write the program, and find the mistakes of its statements."""
+        """Return the program as text, and collect the mistakes in its statements."""
         out = []
         for row in self._rows:
             try:

@@ -22,7 +22,7 @@ _ARMS: Final[dict[Side, ArmSpec]] = {"right": RIGHT, "left": LEFT}
 _CHOICES: Final[dict[str, Side]] = {"RIGHT": "right", "LEFT": "left"}
 _PAIRS: Final = {"NEXTI": "LOOPI", "NEXTJ": "LOOPJ", "RETURN": "GOSUB"}
 _AT_POINTS: Final = {"DEFPOINT": 1, "GOPOINT": 1, "JOY": 1, "GOLINE": 2, "GOMEAN": 2}
-"""How many parameters of a command are numbers of POINTs."""
+"""How many parameters of a command, from the first, give the statement number of a POINT."""
 
 
 def checked(
@@ -144,7 +144,9 @@ class _Check:
         )
 
     def pairs(self, line: Line) -> Iterator[Diagnostic]:
-        """Check that each end of a loop or subroutine has its beginning, and that each loop has its end."""
+        """Check that each end of a loop or subroutine has a statement that begins the loop or subroutine, and that
+        each loop has an end.
+        """
         code = line.statement.code
         if code in _PAIRS and _PAIRS[code] not in self._codes:
             yield mistake("M13", f"{code} has no {_PAIRS[code]} in this program", line.spans[0])

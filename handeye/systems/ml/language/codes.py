@@ -30,11 +30,11 @@ CODES: Final[dict[str, Mistake]] = {
         cure="first load a part of the chain of references into a variable",
     ),
     "M07": Mistake(
-        meaning="a statement does not exist", example="10 BRANCH 700\n20 STOP",
+        meaning="the program refers to a statement that does not exist", example="10 BRANCH 700\n20 STOP",
         cure="give the number of a stored statement",
     ),
     "M08": Mistake(
-        meaning="a point does not exist", example="10 GOPOINT 5\n20 STOP",
+        meaning="the program refers to a point that does not exist", example="10 GOPOINT 5\n20 STOP",
         cure="store a POINT statement under this number",
     ),
     "M09": Mistake(
@@ -96,7 +96,7 @@ CODES: Final[dict[str, Mistake]] = {
         cure="before the motion, lower the speed with `PUT MT m 8 x`, or widen the limits", severity="warning",
     ),
     "unguarded-motion": Mistake(
-        meaning="no sensor is guarded during a motion", example="10 DMOTOR 2 -100\n20 STOP",
+        meaning="a motion is not guarded: no sensor has limits", example="10 DMOTOR 2 -100\n20 STOP",
         cure="write a SENSOR with limits before the motion", severity="warning",
     ),
 }  # fmt: skip
@@ -123,7 +123,9 @@ SYMBOLIC: Final[dict[str, Mistake]] = {
         cure="define the name with EQU or VAR, or as a label",
     ),
 }  # fmt: skip
-"""Mistakes that only a symbolic program can have. Such a program can also have the mistakes of ML."""
+"""Mistakes that only a symbolic program can have. A symbolic program can also have each mistake that a program in ML
+can have.
+"""
 
 mistake: Final = Mistakes(CODES, SYMBOLIC)
 """Makes a diagnostic of ML."""

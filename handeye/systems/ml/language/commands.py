@@ -97,15 +97,15 @@ _ROWS: Final[dict[Category, tuple[tuple[str, str, str, str], ...]]] = {
             "Go to n1 if the overflow indicator is on. If it is off, go to n2; without n2, go to the next "
             "statement. The statement does not change the indicator."
         ), "40 BROVFL 100 200"),
-        ("DELAY", "x", "Wait x hundredths of a second. The sensors stay guarded.", "50 DELAY 100"),
+        ("DELAY", "x", "Wait x hundredths of a second. Guards on sensors stay active.", "50 DELAY 100"),
         ("GOSUB", "n", "Go to a subroutine. A subroutine cannot call another subroutine with GOSUB.", "60 GOSUB 900"),
         ("IF", "x n1 n2 n3", "Go to n1 if x is less than zero, to n2 if it is zero, to n3 if it is greater.",
          "70 IF &1 100 200 300"),
         ("LOOPI", "x [v]", (
-            "Run the statements from here to NEXTI x times. Variable v counts the times, from 1."
+            "Run the statements from here to NEXTI, x times in all. Variable v counts the rounds, from 1."
         ), "10 LOOPI 3 20"),
         ("LOOPJ", "x [v]", (
-            "Run the statements from here to NEXTJ x times. LOOPJ may be inside LOOPI, and LOOPI inside LOOPJ."
+            "Run the statements from here to NEXTJ, x times in all. LOOPJ may be inside LOOPI, and LOOPI inside LOOPJ."
         ),
          "20 LOOPJ 4"),
         ("NEXTI", "", "The end of the statements that LOOPI repeats.", "80 NEXTI"),
@@ -161,18 +161,18 @@ _ROWS: Final[dict[Category, tuple[tuple[str, str, str, str], ...]]] = {
         ("DLOAD", "v x [y]", "Set a pair of variables to x, or to the pair x y: v gets the high word, and "
                                "v+1 gets the low word.",
          "10 DLOAD 1 500"),
-        ("EQ?", "x y", "Set the comparison indicator on if x equals y, otherwise off.", "30 EQ? &1 0"),
-        ("GE?", "x y", "Set the comparison indicator on if x is at least y, otherwise off.", "30 GE? &1 0"),
+        ("EQ?", "x y", "If x equals y, set the comparison indicator on; if not, set it off.", "30 EQ? &1 0"),
+        ("GE?", "x y", "If x is at least y, set the comparison indicator on; if not, set it off.", "30 GE? &1 0"),
         ("GET", "v t line word", "Set variable v to a word of table t.", "40 GET 1 MT 3 5"),
         ("GETGOL", "v m", "Set variable v to the goal of motor m.", "40 GETGOL 1 3"),
         ("GETPOS", "v m", "Set variable v to the position of motor m.", "40 GETPOS 1 3"),
         ("GETSEN", "v s", "Set variable v to the reading of sensor s.", "40 GETSEN 1 8"),
-        ("GT?", "x y", "Set the comparison indicator on if x is greater than y, otherwise off.", "30 GT? &1 &2"),
-        ("LE?", "x y", "Set the comparison indicator on if x is at most y, otherwise off.", "30 LE? &1 0"),
+        ("GT?", "x y", "If x is greater than y, set the comparison indicator on; if not, set it off.", "30 GT? &1 &2"),
+        ("LE?", "x y", "If x is at most y, set the comparison indicator on; if not, set it off.", "30 LE? &1 0"),
         ("LOAD", "v x", "Set variable v to x.", "11 LOAD 1 -&3"),
-        ("LT?", "x y", "Set the comparison indicator on if x is less than y, otherwise off.", "30 LT? &1 0"),
+        ("LT?", "x y", "If x is less than y, set the comparison indicator on; if not, set it off.", "30 LT? &1 0"),
         ("MULT", "v x [w]", "Multiply variable v by x; variable w gets the high word of the product.", "20 MULT 1 25"),
-        ("NE?", "x y", "Set the comparison indicator on if x differs from y, otherwise off.", "30 NE? &1 0"),
+        ("NE?", "x y", "If x differs from y, set the comparison indicator on; if not, set it off.", "30 NE? &1 0"),
         ("OVFLOFF", "", (
             "Set the overflow indicator off. No other statement of a running program clears this indicator."
         ), "10 OVFLOFF"),

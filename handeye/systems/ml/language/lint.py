@@ -39,7 +39,9 @@ class Watch(NamedTuple):
     speeds: tuple[tuple[int, int], ...] = ()  # speeds of slides (units per cycle) that the program has set
 
     def joined(self, other: "Watch") -> "Watch":
-        """Return what is known about the sensors before a statement at which this path and another meet."""
+        """Return what is known about the sensors before a statement to which two paths lead: `self` is
+        known after one path, and `other` after the other path.
+        """
         limits, speeds, others = dict(self.limits), dict(self.speeds), dict(other.speeds)
         both = {sensor: min(limit, limits[sensor]) for sensor, limit in other.limits if sensor in limits}
         faster = {

@@ -62,7 +62,9 @@ class ArmSpec:
 
 
 def analog(point: int) -> SensorLine:
-    """Return the line of an analog sensor. The sensor's reading is the count of its input, without a scale factor."""
+    """Return the line of an analog sensor. The sensor reads its analog input in converter counts, without a scale
+    factor.
+    """
     return SensorLine(input=point)
 
 

@@ -276,8 +276,8 @@ class RunningMl(NumberedRun):
         self.recorder.statement()
 
     def interject(self, text: str, task: str) -> None:
-        """Execute the command FILE in the middle of a statement. The real-time level uses the written words in its
-        next cycle and later.
+        """Execute the command FILE while a statement is still being executed. FILE writes words, and the real-time
+        level uses them from its next cycle.
         """
         side = task or "right"
         if side not in self.interpreters:
@@ -378,7 +378,7 @@ class RunningMl(NumberedRun):
                 present=lambda name: (float(self.machine.memory.shared.VR[int(name) - 1]),),
             ),
             "interlock": Settable(
-                noun="interlock (1: it stops the arms)", usage="NAME n", names=INTERLOCKS, units=(1.0,), fewest=1,
+                noun="interlock (1 stops the arms)", usage="NAME n", names=INTERLOCKS, units=(1.0,), fewest=1,
                 present=lambda name: (float(locks[INTERLOCKS.index(name)].now),),
             ),
         }  # fmt: skip

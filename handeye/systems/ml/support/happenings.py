@@ -34,8 +34,8 @@ class ScrewReported(SystemEvent, frozen=True, kw_only=True):
     screw: int
     found: Found
     deeper: float
-    """How much deeper (m) the bit is than it would be over a seated screw. If the screw was not turned, the comparison
-    is with a screw in the mouth of its thread.
+    """How much deeper (m) the bit is than on a seated screw. If the screw was not turned, the comparison is with a
+    screw in the mouth of its thread.
     """
     torque: float  # N m; 0 if the clutch has not slipped
 
@@ -44,10 +44,7 @@ class ScrewReported(SystemEvent, frozen=True, kw_only=True):
         where = "the mouth of its thread" if self.found in ("lost", "beside") else "its seat"
         torque = f", and the torque is {self.torque:.3f} N m" if self.torque else ""
         off = f"{abs(self.deeper) / MILLIMETRE:.2f} mm {way}"
-        return (
-            f"screw {self.screw} {_ENDS[self.found]}; the bit is {off} than it would be over a screw at "
-            f"{where}{torque}"
-        )
+        return f"screw {self.screw} {_ENDS[self.found]}; the bit is {off} than on a screw at {where}{torque}"
 
 
 def reported(line: str, time: float) -> ScrewReported | None:

@@ -79,6 +79,6 @@ brought into a frame in main memory when it is needed.
 """
 
 SHARED: Final = ("TM", "JY", "FK", "VR", "PF", "HL", "MX", "US")
-"""Tables that both arms share. The arms also share the tables that the background level keeps; those are not in this
-list.
+"""Tables of the real-time level that both arms share. The tables of the background level are not in this list,
+although the arms share them, too.
 """

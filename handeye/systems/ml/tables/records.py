@@ -1,4 +1,4 @@
-"""The lines of those tables whose words have names. The fields of a line are its words, in the order of the table.
+"""Lines of tables, with a named field for each word. The fields are in the order of the words in the table.
 Lines that change in every cycle are mutable. All other lines are immutable: a new line replaces the old line. Saved
 states can therefore share these lines.
 """

@@ -58,7 +58,7 @@ TROUBLES: Final = {
     **support.TROUBLES,
     "7": "the hand and the range finder find no good bar in the bin",
     "8": "the bin still has bars that the hand cannot take out",
-    "9": "the hand does not hold one bar by its sides",
+    "9": "the hand does not hold exactly one bar by its sides",
     "10": "the bar does not meet the table",
     "11": "the bar does not become level",
     "12": "the bar does not meet the stop",

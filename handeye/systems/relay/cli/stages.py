@@ -29,8 +29,8 @@ def stages(
     stage: Annotated[
         list[str] | None,
         Parameter(
-            help="Name of a stage of the pump’s own program; may be repeated. Default: the stages that several "
-            "languages can do.",
+            help="Name of a stage of the pump’s own program; may be repeated. Default: the stages for which there "
+            "are programs in several languages.",
             consume_multiple=False,
         ),
     ] = None,
@@ -55,7 +55,7 @@ def stages(
     camera: Camera = "auto",
     options: SweepOptions = ANY,
 ) -> int:
-    """Do stages of the pump in several languages, each from the same state of the same worlds.
+    """Do stages of the pump in several languages, which all start from the same state in each world.
 
     In each world, and for each stage, the careful program (`water_pump.al`) first does all earlier stages. A program
     in each language then continues from this state and does the stage, and the referee judges the pump as it is after
@@ -123,8 +123,8 @@ def _chosen(names: Sequence[str] | None, languages: Sequence[str] | None) -> "li
 
 
 def _careful(legs: "Iterable[StageLeg]") -> "StageLeg":
-    """Return the leg in which the careful program does the last stage that is needed. This is the last stage of `legs`
-    or, if it is later, the last stage that several languages can do.
+    """Return a leg of the careful program. Its stage is the last stage of `legs`, or the last stage that several
+    languages can do, whichever is later.
     """
     from handeye.systems.relay.stages.languages import shared, stage_legs, stages
 

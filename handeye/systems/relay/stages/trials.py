@@ -261,10 +261,10 @@ def _details(rows: Sequence[StageRow]) -> tuple[Details, ...]:
         ),
         Details(
             name="limits", title=(
-                "For each stage: its legs, and the lines of the careful program that a language cannot express"
+                "For each stage: its legs, and how many lines of the careful program TRIG, ML and MAL cannot express"
             ),
             rows=limits(),
-            heads=("stage", "legs in", "no words in TRIG, ML and MAL for", "lines", "TRIG", "ML", "MAL"),
+            heads=("stage", "legs in", "TRIG, ML and MAL lack words for", "lines", "TRIG", "ML", "MAL"),
         ),
     )  # fmt: skip
 

@@ -1,8 +1,8 @@
 """The Stanford arm in place of arm 1: the axes X1, Y1 and Z1 drive coordinates of its tool, and there is no bus.
 
-The central computer gives the same commands that it gives to the motors of SUPERSIGMA. The commands are not sent as
-bytes; instead, they set a new goal of the tool in each servo period of 1/60 s (`execution/tool_axes.py`). Commands,
-places and times are handled as for perfect motors, except that each motion takes as long as this arm needs.
+The central computer gives this arm the same commands as the motors of SUPERSIGMA. The commands are not sent as bytes;
+instead, they set a new goal of the tool in each servo period of 1/60 s (`execution/tool_axes.py`). Commands, places
+and times are handled as for perfect motors, except that each motion takes as long as this arm needs.
 """
 
 import math

@@ -16,8 +16,8 @@ END: Final = None  # stands for the number of a line: the program ends
 
 @dataclass(frozen=True, slots=True)
 class Unknown:
-    """A value that the text of the program does not determine: it depends on the path on which the program reaches a
-    line, or on a force.
+    """A value that the text of the program does not determine, because the value depends on a force, or on the path by
+    which the program reaches a line.
     """
 
 
@@ -37,7 +37,9 @@ class Before:
     """The line to which an abort leads; None if the program stops."""
 
     def met(self, other: "Before") -> "Before":
-        """Return what holds before a line if the program can reach the line in this state and in the state `other`."""
+        """Return what is certain before a line that the program can reach either in this state or in the state
+        `other`.
+        """
 
         def same(one: Mapping[str, object], two: Mapping[str, object]) -> dict[str, object]:
             return {name: value if value == two[name] else UNKNOWN for name, value in one.items()}
@@ -86,8 +88,8 @@ def _jump(statement: Statement) -> int | None:
 
 
 def goals(statement: Statement, places: Axes) -> dict[str, Known]:
-    """Return the place (mm) to which a MOVE moves each of its axes; the place is UNKNOWN if the MOVE goes a distance
-    from an unknown place.
+    """Return the place (mm) to which a MOVE moves each of its axes; the place is UNKNOWN if the MOVE is relative and
+    starts at an unknown place.
     """
     found: dict[str, Known] = {}
     for goal in statement.goals:

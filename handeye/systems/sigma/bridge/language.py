@@ -14,12 +14,12 @@ from handeye.systems.sigma.bridge.translation import AT, LANGUAGE, translated
 _SAID = {
     "hand-through-table": "the hand would go through the table",
     "hand-through-fixture": "the hand would go through a fixture",
-    "carries-through-table": "what the hand holds would go through the table",
-    "carries-through-fixture": "what the hand holds would go through a fixture",
+    "carries-through-table": "the object in the hand would go through the table",
+    "carries-through-fixture": "the object in the hand would go through a fixture",
     "stop-beyond-arm": "the arm cannot exert the force of this limit",
     "force-beyond-arm": "the arm cannot exert this force",
-    "faint-force": "in free motion, the friction of its joints alone can make the arm feel this force",
-    "faint-moment": "in free motion, the friction of its joints alone can make the arm feel this moment",
+    "faint-force": "in free motion, joint friction alone can make the arm feel this force",
+    "faint-moment": "in free motion, joint friction alone can make the arm feel this moment",
 }
 
 
@@ -29,7 +29,7 @@ def bridge(at: tuple[float, float] = AT) -> Language:
 
 
 def phrase(program: Program, arm: NamedArm, findings: Iterable[PlanFinding]) -> list[Diagnostic]:
-    """Turn each finding of the planner into a diagnostic at its line."""
+    """Turn each finding of the planner into a diagnostic at the program line that it concerns."""
     return arranged(_phrased(program, arm, finding) for finding in findings)
 
 

@@ -1,4 +1,4 @@
-"""Lets SUPERSIGMA do legs of a relay: a MAL program moves the tool of the Stanford arm as if it were arm 1. There is
+"""Lets SUPERSIGMA run legs of a relay: a MAL program moves the tool of the Stanford arm as if it were arm 1. There is
 no bus.
 
 The corner X1 = 0, Y1 = 0 of the board is at x = 350 and y = 800 mm on the table, and Z1 = 0 is 240 mm above the table.

@@ -200,7 +200,7 @@ def _force_tests(lines: Sequence[Line]) -> tuple[dict[int, ForceTest], list[Diag
                 _refused(line, "an IF can only compare ABS(FORCE(axis)) with a number, and go to a line")
             )
         elif before is None or moved != [test.axis] or line.number in targets:
-            told = "a test of FORCE must directly follow a MOVE of only this axis, and no line may jump to it"
+            told = "a test of FORCE must directly follow a MOVE of only this axis, and no line may jump to the test"
             wrong.append(_refused(line, told))
         else:
             tests[before.number] = test
@@ -251,7 +251,9 @@ class _Translation:
         limits = [before.limits[name] for name in moved]
         settings = [*limits, *(before.speeds[name] for name in moved)]
         if any(isinstance(value, Unknown) for value in settings):
-            self._refuse(line, "its LIMIT or SPEED depends on how the program reached this line")
+            self._refuse(
+                line, "the LIMIT or the SPEED of its motors depends on how the program reached this line"
+            )
             return []
         for name, place in moved.items():
             most = TRAVEL[name] * STEP_MM
@@ -262,7 +264,7 @@ class _Translation:
         if test is not None and least is not None and test.limit > least:
             self._refuse(
                 line,
-                f"its LIMIT of {least:g} N stops the motion before the force reaches the {test.limit:g} N of the test",
+                f"the LIMIT of {least:g} N stops the motion before the force reaches the {test.limit:g} N of the test",
             )
             return []
         guard = least if test is None else test.limit
@@ -280,8 +282,8 @@ class _Translation:
         if isinstance(way, Unknown):
             self._refuse(
                 line,
-                "ON ABORT leads to different lines for different axes of this motion, or on different paths to "
-                "this motion",
+                "the line to which ON ABORT leads is different for different axes of this motion, or depends on "
+                "the path to this motion",
             )
             return []
         tested = _Draft(

@@ -70,7 +70,7 @@ class Layout(Record, frozen=True, kw_only=True):
         """Raise BadArgument if the layout cannot be built."""
         if not self.behind or self.behind[0] != -1:
             raise BadArgument(
-                "the first segment of a bus is connected to the computer directly, without a regenerator"
+                "the first segment of a bus must be connected directly to the computer, without a regenerator"
             )
         for segment, towards in enumerate(self.behind[1:], start=1):
             if not 0 <= towards < segment:

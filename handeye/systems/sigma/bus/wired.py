@@ -117,7 +117,7 @@ class WiredBus(MicrobusPort):
         )
 
     def _reckon(self) -> None:
-        """Compute the values that no state contains: due times, shown levels, and inputs of the machine."""
+        """Compute the values that are not saved in a state: due times, shown levels, and inputs of the machine."""
         self._due = {number: self._due_of(number, self.now * PS) for number in self._nodes}
         self._shown = {number: self._status(number) for number in self._nodes}
         self._level, self._changed = self._tied(), False
@@ -144,7 +144,8 @@ class WiredBus(MicrobusPort):
         memory = self._memory
         if not self.free:
             raise Refused(
-                "the bus still carries a command or an answer; wait until it has ended before sending the next command"
+                "the bus still carries a command or an answer; wait until the bus is free before sending the next "
+                "command"
             )
         sending = Sending(
             start=self.now,
@@ -318,7 +319,7 @@ class WiredBus(MicrobusPort):
         return device.crystal.after(0, self.timing.scan, at + 1)
 
     def _reflexes(self, number: int) -> list[tuple[int, bool]]:
-        """Return the motors that a force microcomputer can interrupt, each with True while it is interrupted."""
+        """Return pairs: a motor that a force microcomputer can interrupt, and True if this motor is interrupted now."""
         device = self._nodes[number].device
         assert isinstance(device, Force)
         pairs = ((self._wired.get((number, c)), level) for c, level in enumerate(device.pins))

@@ -20,9 +20,9 @@ def axis(
     curve: Annotated[
         WholeNumber,
         Parameter(
-            help="Acceleration curve. Curve 0 is the usual one, with a top speed of 13333 steps/s. Curve 1 has a top "
-            "speed of 15000 steps/s. Curve 2 accelerates half as fast as curve 0, and curve 3 a quarter as fast. "
-            "Curve 4 has half the start/stop speed."
+            help="Acceleration curve. Curve 0 is the usual one, with a top speed of 13333 steps/s. Curve 1 has a "
+            "top speed of 15000 steps/s. Curve 2 accelerates half as fast as curve 0, and curve 3 a quarter as "
+            "fast. Curve 4 has half the start/stop speed of curve 0."
         ),
     ] = 0,
     slow: Annotated[

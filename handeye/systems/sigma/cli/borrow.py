@@ -8,7 +8,7 @@ from cyclopts import Parameter
 from handeye.cli.common import Json, WholeNumber, note, say
 from handeye.systems.sigma.cli.bridge import BoardCorner, board_corner
 
-MalFile = Annotated[Path, Parameter(help="A program in MAL for arm 1, `.mal`.")]
+MalFile = Annotated[Path, Parameter(help="A MAL program (`.mal`) for arm 1.")]
 
 
 def borrow(

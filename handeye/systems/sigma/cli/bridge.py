@@ -8,7 +8,7 @@ from cyclopts import Parameter
 from handeye.cli.common import Overwrite, TaskWords, say, show
 from handeye.core.errors import BadArgument
 
-MalFile = Annotated[Path, Parameter(help="A program in MAL with a single task, `.mal`.")]
+MalFile = Annotated[Path, Parameter(help="A MAL program (`.mal`) with a single task.")]
 BoardCorner = Annotated[
     tuple[float, float] | None,
     Parameter(

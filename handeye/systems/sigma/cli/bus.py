@@ -113,7 +113,7 @@ def demo(
 
 
 def run(
-    file: Annotated[Path, Parameter(help="A program in MAL, `.mal`.")],
+    file: Annotated[Path, Parameter(help="A MAL program (`.mal`).")],
     /,
     *,
     fault: BusFaults = None,
@@ -140,8 +140,8 @@ def run(
 ) -> int:
     """Run a program in MAL over the simulated wires of the bus, and say how busy the bus and the computer were.
 
-    With --out, the command draws a diagram of the whole run or of a part. This run is not kept in a folder; to keep a
-    run, use `handeye sigma run --arm wired`.
+    With --out, the command draws a diagram of the run from --begin to --end. The run is not kept in a folder; to keep
+    a run, use `handeye sigma run --arm wired`.
 
     Exit code 0: all tasks have ended; 1: the program stopped before its end; 2: bad input; 130: interrupted.
     """

@@ -31,7 +31,7 @@ from handeye.systems.sigma.mal.check import checked
 from handeye.systems.sigma.mal.happenings import Printed
 from handeye.systems.sigma.run.plan import LONGEST_STATEMENT_US, ArmName
 
-MalFile = Annotated[Path, Parameter(help="A program in MAL, `.mal`.")]
+MalFile = Annotated[Path, Parameter(help="A MAL program (`.mal`).")]
 StatementTime = Annotated[
     WholeNumber,
     Parameter(
@@ -126,8 +126,8 @@ def check(
 ) -> int:
     """Check a program as `handeye check` does, and try the orders in which its tasks may run.
 
-    Statements are executed one at a time; motions and delays may take any time. Sensors answer 0, INPUT reads 0, and no
-    motor is aborted.
+    Statements are executed one at a time; motions and delays may take any time. Sensors answer 0, INPUT reads 0, and
+    no motion is aborted.
 
     Exit code 0: nothing was found; 1: there is a deadlock, a race, or a statement that cannot be executed; 2: bad
     input, or a program with errors.
@@ -173,7 +173,7 @@ def words(word: str | None = None, /) -> int:
 
 
 def console(
-    file: Annotated[Path | None, Parameter(help="A program in MAL to load at the start, `.mal`.")] = None, /
+    file: Annotated[Path | None, Parameter(help="A MAL program (`.mal`) to load at the start.")] = None, /
 ) -> int:
     """Open the console of 1981: type the numbered lines of a program, or a command such as RUN; HELP lists the
     commands.

@@ -88,7 +88,7 @@ class Console:
         word, _, rest = line.partition(" ")
         word, rest = word.upper(), rest.strip()
         if word not in COMMANDS:
-            near = suggestion(word, COMMANDS) or "HELP lists them"
+            near = suggestion(word, COMMANDS) or "HELP lists the commands"
             raise NoSuchName(f"{quoted(word)} is not a command; {near}")
         if rest and " " not in COMMANDS[word].usage:
             raise BadArgument(f"{word} takes no operand; remove {quoted(rest)}")

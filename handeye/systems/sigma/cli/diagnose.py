@@ -1,4 +1,4 @@
-"""The command that finds faults of SUPERSIGMA, and lets a player find them."""
+"""The command that finds a planted fault of SUPERSIGMA, or lets a player find the fault."""
 
 import sys
 from typing import Annotated

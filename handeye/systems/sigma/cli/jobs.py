@@ -46,7 +46,7 @@ def chess(
     errors: OwnErrorOptions = ANY_OWN_ERRORS,
     options: FaultyJobOptions = ANY_FAULTY_RUN,
 ) -> int:
-    """Find chess pieces along three lines, measure their heights with a light beam, and sort them: the paper's example.
+    """Find chess pieces along three lines, measure their heights with a light beam, and sort them, as in the paper.
 
     `plans/chess.mal` runs on two simulated gantries, in a world with errors. A referee then checks that each
     piece stands on the line for its height, within 5 mm and 3 degrees, and that each measured height is right
@@ -70,7 +70,7 @@ def handover(
     """Hand four pieces from arm to arm: arm 1 brings the pieces; arm 2 presses in their pins and takes the pieces away.
 
     `plans/handover_pieces.mal` runs on two simulated gantries, in a world with errors. A referee then checks
-    that each piece stands at its last place, within 3 mm and 3 degrees, with its pin protruding by at most .5 mm;
+    that each piece stands at its final place, within 3 mm and 3 degrees, with its pin protruding by at most .5 mm;
     that the program counted the finished pieces correctly; and that the arms never touched each other.
 
     Exit code 0: right; 1: the program stopped before its end, for example at a deadlock or because the arms
@@ -88,7 +88,7 @@ def insert(
     errors: OwnErrorOptions = ANY_OWN_ERRORS,
     options: FaultyJobOptions = ANY_FAULTY_RUN,
 ) -> int:
-    """Straighten pegs in a rack with both arms, and find the holes for the pegs by force.
+    """With both arms, straighten pegs in a rack, and find the holes for the pegs by force.
 
     `plans/insert.mal` runs on two simulated gantries, in a world with errors. Each peg is rotated by up to 20
     degrees, and plates lie up to 3 mm from their places. A referee then checks that each peg stands in its hole, no
@@ -111,8 +111,8 @@ def line(
     errors: OwnErrorOptions = ANY_OWN_ERRORS,
     options: FaultyJobOptions = ANY_FAULTY_RUN,
 ) -> int:
-    """Run an assembly line: a feeder brings pieces, each of two SUPERSIGMAs presses a pin into every piece, and a
-    belt withdraws them.
+    """Run an assembly line: a feeder brings pieces, each of two SUPERSIGMAs presses a pin into every piece, and a belt
+    takes the pieces away.
 
     `plans/line.mal` runs on four simulated arms, a feeder and a belt, in a world with errors. The machine has 26
     microcomputers on one bus of three segments. A referee then checks that each piece stands at its place on the belt,

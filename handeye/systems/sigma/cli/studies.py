@@ -1,4 +1,4 @@
-"""The JSON output of the studies of SUPERSIGMA, which no referee judges."""
+"""The JSON output of SUPERSIGMA's studies. No referee judges these studies."""
 
 from handeye.cli.common import put_json
 

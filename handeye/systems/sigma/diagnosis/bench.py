@@ -63,7 +63,9 @@ class Machine(IdealMachine):
         self._trains: dict[
             int, tuple[Any, int, int, int]
         ] = {}  # for each moving motor: train, began, pulses, sense
-        self._most: dict[int, int] = {}  # greatest number of motors that moved at once during each train
+        self._most: dict[
+            int, int
+        ] = {}  # greatest number of motors that moved at the same time during each train
         self._due: list[tuple[int, int, bool | None]] = []  # ps, number, whether fingers press from then on
         self.now = 0  # ps
 

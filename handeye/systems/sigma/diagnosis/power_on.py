@@ -17,8 +17,8 @@ from handeye.systems.sigma.protocol import ANSWERS, Op, echo, name_of, self_test
 PATTERNS: Final = (b"\x55\xaa\x33", b"\xaa\x55\xcc")
 """Test patterns for ECHO. They drive each data line both low and high, and neighbouring bytes differ."""
 DEAD: Final = (
-    "no microcomputer on this segment answers: the interface of the segment is dead, or a data line is stuck high, "
-    "although it should be low in every address on the segment"
+    "no microcomputer on this segment answers: the interface of the segment is dead, or a data line that should be "
+    "low in every address on the segment is stuck high"
 )
 _ALL: Final = 0xFF
 
@@ -149,7 +149,7 @@ def _microcomputer(number: int, heard: Mapping[int, _Heard], scanning: Container
     fault = ""
     if one.silent:
         taken = [other for other in heard if takes(number, other)]
-        spare = f"it answers to the number of {name_of(taken[0])}" if taken else ""
+        spare = f"it answers to {name_of(taken[0])}'s number instead of its own" if taken else ""
         fault = spare or "it is dead: it does not answer"
     elif one.right or any(takes(stranger, number) for stranger in heard):
         pass

@@ -18,9 +18,9 @@ from handeye.systems.sigma.protocol import AXES, COMPONENTS, NUMBERS, name_of
 
 ARMS: Final = (1, 2)
 UNDECIDED: Final = (
-    "every test passes; three faults escape all tests: line A of a wrist or hand stuck low, because this line "
-    "never rises even without a fault; line B of a wrist stuck high, because a wrist is always busy; and one of "
-    "the two lowest bits of a converter stuck, because these bits change a reading by .1 N at most"
+    "every test passes, but no test can find three faults: line A of a wrist or hand is stuck low (it never rises "
+    "even without this fault), line B of a wrist is stuck high (a wrist is always busy), or one of the two lowest "
+    "bits of a converter is stuck (these bits change a reading by .1 N at most)"
 )
 _NEAR_N: Final = 0.15  # greatest error of a sound wrist, if its load is known to .1 N
 _OFFSET_SPREAD_N: Final = 0.11  # greatest spread of the errors of a gauge that only has an offset
@@ -247,7 +247,7 @@ def wrong_force(found: means.Forces) -> tuple[str, str]:
     own = [error for each, _, error in errors if each == component]
     spread = max(own) - min(own)
     why = (
-        "its reading is too large or too small by the same force at every load"
+        "at every load, its reading is wrong by the same force"
         if spread <= _OFFSET_SPREAD_N
         else "its reading does not follow the load"
     )

@@ -43,7 +43,8 @@ class ProgramPolicy(Policy):
 
 
 class _SeenBus(MicrobusPort):
-    """The bus as an episode offers it. Commands are collected until time passes, and then become one action."""
+    """The bus as an episode offers it. The bus collects the commands for one step of the episode, and makes them one
+    action."""
 
     def __init__(self, episode: Episode) -> None:
         self._episode = episode
@@ -104,7 +105,7 @@ class _SeenBus(MicrobusPort):
             goal = self._reading("count", command.number) + steps
             self._next |= {f"set.{way}": 1.0, f"goal.{way}": goal * STEP_MM}
         else:
-            raise Refused(f"an action cannot give the command {Op(command.op).name}")
+            raise Refused(f"no action of the environment can carry the bus command {Op(command.op).name}")
 
     def answer(self) -> bytes:
         return self._got

@@ -1,5 +1,5 @@
 """Firmware of a wrist, which scans the three components of force. While a component exceeds its threshold, the
-firmware raises a pin of the motor of the same axis.
+firmware keeps on the signal line to the motor microcomputer of this axis.
 """
 
 from collections.abc import Sequence

@@ -1,5 +1,5 @@
-"""Firmware of a motor, which converts commands to pulse trains. If a pin rises during a motion, the motor slows down
-by the steepest ramp until it stands.
+"""Firmware of a motor, which converts commands to pulse trains. If the level at a pin of the interrupt gate rises
+during a motion, the motor stops with the steepest ramp.
 """
 
 from typing import Final, Literal
@@ -20,7 +20,7 @@ from handeye.systems.sigma.motors.pulses import (
 from handeye.systems.sigma.protocol import LONGEST_MOVE, SLOW_STEP_MM, STEP_MM, Op
 
 Pin = Literal["low", "high", "force"]
-"""A pin of the interrupt gate: low end of the rail, high end, or excessive force."""
+"""A pin of the interrupt gate. It signals the low end of the rail, the high end, or excessive force."""
 State = Literal["still", "moving", "stopping", "seeking", "turning", "releasing"]
 """State of a motor. During an ORIGIN, the motor is `seeking` on its way to the low end of the rail, `turning` while it
 brakes there, and `releasing` until the switch of the low end opens.

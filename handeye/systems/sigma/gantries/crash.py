@@ -204,7 +204,8 @@ STUDY: Final = (
 
 
 ABOVE: Final = tuple((lower, speed) for lower in (2, 1) for speed in (50.0, None))
-"""For each collision in which one hand hits the other arm above its wrist: the arm whose hand is lower, and the speed.
+"""For each collision in which a hand hits the other arm above that arm's wrist: the arm whose hand is lower, and the
+speed.
 """
 
 

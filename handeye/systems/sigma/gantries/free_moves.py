@@ -66,7 +66,7 @@ def lines(found: Sequence[FreeMoves]) -> list[str]:
         moves, tripped = sum(each.moves for each in these), sum(each.tripped for each in these)
         worlds = counted(len(these), "world")
         out.append(
-            f"{'with' if compensated else 'without'} accelerometers: the reflex stopped {tripped} of {moves} moves in "
-            f"{worlds}; the greatest force per world was {span} N"
+            f"{'with' if compensated else 'without'} accelerometers: the reflex stopped {tripped} of {moves} moves "
+            f"in {worlds}; the greatest force in each world was {span} N"
         )
     return out

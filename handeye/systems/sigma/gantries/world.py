@@ -97,7 +97,8 @@ VARIATION: Final = Variation(
         "mm",
         Noise(0.5),
         5.0,
-        "Standard deviation of a piece's position across its line. No source: our choice, for pieces placed by hand.",
+        "Standard deviation of a piece's position along x and y; for chess pieces, along y only. No source: our "
+        "choice, for pieces placed by hand.",
     ),
     _quantity(
         FIXTURES,

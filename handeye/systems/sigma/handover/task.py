@@ -63,7 +63,7 @@ class Handover(JobTask):
             "on_the_board": at_most(
                 max(lifts), STANDS, "mm", "greatest height of a piece's foot above the board"
             ),
-            "placed": at_most(max(places), PLACED, "mm", "greatest distance of a piece from its last place"),
+            "placed": at_most(max(places), PLACED, "mm", "greatest distance of a piece from its final place"),
             "pressed": at_most(max(proud), PRESSED, "mm", "greatest height by which a pin still protrudes"),
             "counted": at_most(
                 wrong, 0, "pieces", "difference between the program's count and the number of finished pieces"

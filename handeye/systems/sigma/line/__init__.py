@@ -1,1 +1,1 @@
-"""The assembly line: a feeder brings pieces, two SUPERSIGMAs work on them, and a belt withdraws them."""
+"""The assembly line: a feeder brings pieces, two SUPERSIGMAs work on the pieces, and a belt takes the pieces away."""

@@ -33,9 +33,7 @@ PRESSED: Final = 0.5  # mm by which a pin may still stand out
 
 
 class AssemblyLine(JobTask):
-    """A feeder brings pieces, each of two SUPERSIGMAs presses one pin into every piece, and a belt withdraws the
-    pieces.
-    """
+    """A feeder brings pieces, two SUPERSIGMAs press one pin each into every piece, and a belt takes the pieces away."""
 
     name = "line"
     words = Words(product="the line", done="Each piece is finished and withdrawn.")
@@ -72,7 +70,7 @@ class AssemblyLine(JobTask):
                 max(lifts), STANDS, "mm", "greatest height of a piece's foot above the belt"
             ),
             "withdrawn": at_most(
-                max(places), PLACED, "mm", "greatest distance of a piece from its last place"
+                max(places), PLACED, "mm", "greatest distance of a piece from its final place"
             ),
             "pressed": at_most(max(proud), PRESSED, "mm", "greatest height of a pin above its piece"),
             "counted": at_most(

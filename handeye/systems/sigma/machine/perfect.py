@@ -86,7 +86,7 @@ class PerfectMotors(MicrobusPort):
     def begin(self, command: Command, answer: int = 0) -> None:
         if not self.free:
             raise Refused(
-                "the bus still carries a command; wait until it has ended before sending the next command"
+                "the bus still carries a command; wait until the bus is free before sending the next command"
             )
         self._memory.free_at = self._memory.now + COMMAND_BYTES * BYTE_US
         self._memory.answer = None

@@ -210,7 +210,8 @@ class BusOperations:
         if count != sent:
             self.memory.counts[axis] = count
             raise Trap(
-                f"WRONGCOUNT: {axis} has counted {count * STEP_MM:.2f} mm, and was sent to {sent * STEP_MM:.2f} mm"
+                f"WRONGCOUNT: the count of {axis} is {count * STEP_MM:.2f} mm, but {axis} was sent to "
+                f"{sent * STEP_MM:.2f} mm"
             )
 
     def _transmit(self, name: str, command: Command, means: str) -> None:

@@ -28,7 +28,7 @@ CODES: Final[dict[str, Mistake]] = {
         cure="set the flag with SET in another task, or correct its name", severity="warning",
     ),
     "for-without-next": Mistake(
-        meaning="a FOR has no NEXT of the same name after it in its task", example="10 FOR I = 1 TO 4\n20 PRINT I",
+        meaning="in a task, no NEXT of the same name follows a FOR", example="10 FOR I = 1 TO 4\n20 PRINT I",
         cure="write NEXT after the lines to repeat",
     ),
     "line-missing": Mistake(

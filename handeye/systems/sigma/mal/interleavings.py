@@ -35,7 +35,7 @@ HANDS_MEET_MM: Final = 550.0  # sum of these axes beyond which the hands of the 
 FindingKind = Literal["deadlock", "axis", "hands", "variable", "flag", "stops"]
 KINDS: Final[dict[FindingKind, str]] = {
     "deadlock": "no task can continue",
-    "axis": "two tasks drive one axis at once",
+    "axis": "two tasks drive one axis at the same time",
     "hands": "the hands of both arms may meet",
     "variable": "two tasks use a variable, and the result depends on which task is first",
     "flag": "a flag is set again before a task has taken it: one of the two signals is lost",
@@ -383,8 +383,8 @@ def schedule_lines(schedule: Sequence[Act]) -> list[str]:
 
 
 def unreached_lines(program: MalProgram, result: Interleavings) -> str:
-    """Return the lines that no order executes, such as `lines 40, 70 to 90`. The text is empty if there are no such
-    lines.
+    """Return the lines that are never executed, whatever the order of the tasks, such as `lines 40, 70 to 90`. The
+    text is empty if there are no such lines.
     """
     numbers, spans = [line.number for line in program.lines], list[list[int]]()
     for before, number in zip([None, *numbers], numbers, strict=False):
@@ -410,7 +410,7 @@ def told_orders(name: str, program: MalProgram, result: Interleavings) -> Iterat
             yield from (f"    {line}" for line in schedule_lines(finding.schedule))
         shown.add(finding.kind)
     if lines := unreached_lines(program, result):
-        yield f"not checked: no order reaches {lines} (in this check, sensors answer 0 and no motor is aborted)"
+        yield f"not checked: no order reaches {lines} (in this check, sensors answer 0 and no motion is aborted)"
     count = counted(result.states, "state")
     orders = (
         "all orders were tried"

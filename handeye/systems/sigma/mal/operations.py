@@ -81,7 +81,7 @@ class Operations(BusOperations):
         self._tell(TaskEnded(time=self.time, task=name, killed=killed))
 
     def behind(self, address: int) -> int:
-        """Return the address of the code that follows the line to which an address belongs."""
+        """Find the line whose code contains `address`, and return the address of the code that follows this line."""
         index = self.program.line_at[address]
         line = self.program.lines[index]
         if index + 1 < len(self.program.lines) and self.program.lines[index + 1].task == line.task:
@@ -148,7 +148,7 @@ class Operations(BusOperations):
 
     def _do_call(self, _: str, task: TaskMemory, instruction: Instruction) -> None:
         if len(task.returns) >= DEEPEST_GOSUB:
-            raise Trap(f"{counted(DEEPEST_GOSUB, 'GOSUB')} are active: a subroutine does not RETURN")
+            raise Trap(f"{counted(DEEPEST_GOSUB, 'GOSUB')} are active: a subroutine never reaches its RETURN")
         task.returns.append(self.behind(task.pc))
         self._do_go("", task, instruction)
 

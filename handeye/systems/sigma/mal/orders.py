@@ -16,7 +16,7 @@ from handeye.systems.sigma.mal.interleavings import (
 )
 
 _STOPPING: Final[tuple[FindingKind, ...]] = ("deadlock", "stops")
-"""Findings that stop the program. The program notices none of the other findings."""
+"""Kinds of problems that stop the program. A program does not notice problems of the other kinds."""
 
 
 def problems(program: MalProgram, found: Interleavings) -> Iterator[tuple[bool, str, str]]:

@@ -98,9 +98,9 @@ WORDS: Final[dict[str, Word]] = {
                   "10 SPEED X1, 100"),
     "CURVE": Word(
         "statement", "CURVE axis, expression",
-        "Choose the curve by which an axis accelerates. Curve 0 is the usual one, with a top speed of 500 mm/s. Curve "
-        "1 has a top speed of 562.5 mm/s. Curve 2 accelerates half as fast as curve 0, and curve 3 a quarter as "
-        "fast. Curve 4 has half the start/stop speed.",
+        "Choose the curve by which an axis accelerates. Curve 0 is the usual one, with a top speed of 500 mm/s. "
+        "Curve 1 has a top speed of 562.5 mm/s. Curve 2 accelerates half as fast as curve 0, and curve 3 a quarter "
+        "as fast. Curve 4 has half the start/stop speed of curve 0.",
         "10 CURVE Z1, 2",
     ),
     "LIMIT": Word(

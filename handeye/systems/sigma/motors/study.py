@@ -184,7 +184,7 @@ def verdict(found: AxisStudy) -> list[str]:
         )
     elif not found.lost:
         out.append(
-            f"the rotor slips on its way, by up to {counted(round(found.lag), 'step')}, and ends in step by chance"
+            f"the rotor slips on its way, by up to {counted(round(found.lag), 'step')}, but happens to end at its goal"
         )
     else:
         where = "behind" if found.lost > 0 else "ahead"

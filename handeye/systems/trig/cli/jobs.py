@@ -91,8 +91,8 @@ def palletise(
     json: Json = False,
     kept: KeptOptions = NOTHING,
 ) -> int:
-    """Move a stack of blocks into a pallet, and back: the second example of TRIG's paper, with physics, in a random
-    world.
+    """Move a stack of blocks into a pallet, and back. This is the second example of TRIG's paper, with physics, in a
+    random world.
 
     A simulated person types the 26 lines of the example into a new editor, and teaches positions with errors of about
     .3 mm. Then the program runs forwards, and a referee judges the result. Finally the program runs backwards, and the

@@ -1,8 +1,8 @@
 """The user interface with a full screen: live displays, and keys for the teach box.
 
-The session runs in a thread of its own, so that the screen can read keys while the arm moves. The displays are
-drawn by the thread that may read the program at that time: by the screen's thread while the session waits, and by
-the session's thread while the session works.
+The session runs in a thread of its own, so that the screen can read keys while the arm moves. Only one thread at a
+time may read the program, and this thread draws the displays. While the session waits, it is the screen's thread.
+While the session works, it is the session's thread.
 """
 
 from collections import deque
@@ -33,7 +33,7 @@ Mode = Literal["line", "box", "busy"]
 
 
 class Screen(Desk):
-    """Shows a session on the full screen, and reads its input."""
+    """Shows a session on the full screen, and reads the user's input."""
 
     def __init__(
         self,

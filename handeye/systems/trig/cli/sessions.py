@@ -88,7 +88,9 @@ class _ProgressDesk(Script):
 
 
 def interrupting(halted: Callable[[], bool]) -> Halted:
-    """Return the halt function that is used while a script is typed. With it, Ctrl-C interrupts everything."""
+    """Return the halt function for a session that types a script. After Ctrl-C, this function raises
+    KeyboardInterrupt, which interrupts the whole script.
+    """
 
     def ask() -> bool:
         if halted():

@@ -87,7 +87,7 @@ def read_vector(text: str) -> Vector3:
 
 def _position(word: str) -> str:
     if word.startswith("-"):
-        raise BadArgument(f"a minus has no meaning here: type {quoted(word[1:])}")
+        raise BadArgument(f"a minus sign has no meaning here: type {quoted(word[1:])}")
     return name_of(word)
 
 

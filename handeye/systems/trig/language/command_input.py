@@ -76,7 +76,8 @@ def command_of(word: str) -> TrigCommand:
         )
     near = nearest(upper, [*COMMANDS, *SYNONYMS], max(1, len(upper) // 3)) if len(upper) > 1 else None
     raise NoSuchName(
-        f"there is no command {quoted(word)}; " + (f"did you mean {near}?" if near else "HELP lists them")
+        f"there is no command {quoted(word)}; "
+        + (f"did you mean {near}?" if near else "HELP lists the commands")
     )
 
 

@@ -83,7 +83,7 @@ TABLE: Final = (
     ),
     TrigCommand(
         usage="LOOP STEP COUNT", group=STEPS, takes=("step", "count"), needs=2, act=step_commands.loop,
-        help="go back to a step COUNT times, then continue",
+        help="go back to STEP, COUNT times in all; then continue",
     ),
     TrigCommand(
         usage="L STEP [n|g]", group=STEPS, takes=("step", "branch"), needs=1, act=step_commands.link,
@@ -115,7 +115,7 @@ TABLE: Final = (
     ),
     TrigCommand(
         usage="DLINK STEP [n|g]", group=CHANGES, takes=("step", "branch"), needs=1, act=step_commands.unlink,
-        help="remove the link from the active step to STEP; another step must also lead to STEP",
+        help="remove the link from the active step to STEP, provided that another step also leads to STEP",
     ),
     TrigCommand(usage="FLUSH", group=CHANGES, act=step_commands.flush, help="erase the program"),
     TrigCommand(

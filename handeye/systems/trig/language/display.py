@@ -41,7 +41,7 @@ class Cell:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Elbow:
-    """The line from a guarded step to the column of its guarded son."""
+    """The line from a guarded step to its guarded son, which is in another column."""
 
     row: int
     start: int

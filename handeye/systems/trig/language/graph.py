@@ -188,7 +188,7 @@ class Graph:
 
 
 def insert_loop(graph: Graph, after: int, branch: int, target: int, wanted: int) -> Node:
-    """Insert a loop below a node, and its bloop above the target. Raises Refused if the target is not above the
+    """Insert a loop below a node, and the loop's bloop above the target. Raises Refused if the target is not above the
     node.
     """
     if after not in graph.distances(target):
@@ -269,8 +269,8 @@ def _is_cut(graph: Graph, node: Node) -> bool:
 
 
 def _mend_tree(graph: Graph) -> None:
-    """Give every node exactly one incoming edge that is not a link. A node keeps its own edge if that edge is still
-    connected to the top.
+    """Give every node exactly one incoming edge that is not a link. If a node already has such an edge, and this edge
+    is still connected to the top, the node keeps it.
     """
     placed = {TOP}
     _follow(graph, TOP, placed)

@@ -20,8 +20,8 @@ from handeye.systems.trig.language.trig_arm import Halted, HoldOff, MissingConta
 from handeye.touch.senses import as_before, at_least, least_gap
 
 AGAIN: Final = 1e-3
-"""The arm looks for an earlier contact up to this distance (m) beyond the place of this contact. Our choice: 1/12 of
-the height of a block.
+"""When the arm feels again for an earlier contact, it moves at most this distance (m) beyond the place of that
+contact. Our choice: 1/12 of the height of a block.
 """
 Stop = Literal["halted"] | Obstacle
 _MIN_MOTION: Final = 1e-6  # m; a shorter step has no direction
@@ -55,7 +55,7 @@ def _way_back(program: TrigProgram, done: RecordedStep, arm: TrigArm, halted: Ha
 
 
 def _took_up(program: TrigProgram) -> bool:
-    """Return True if the hand was closed at the place where the last move began."""
+    """Return True if the hand executed a GRASP between the last two moves."""
     for done in islice(reversed(program.trail), 1, None):
         node = program.graph.nodes.get(done.node)
         if node is None or node.type in ("normal", "guarded", "ungrasp"):

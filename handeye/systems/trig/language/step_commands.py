@@ -251,7 +251,7 @@ def active_step(session: Session) -> Node:
         raise Refused(
             "the program is empty; M teaches its first step"
             if empty
-            else "the top is not a step; N goes to the first step"
+            else "no step is active at the top of the program; N goes to the first step"
         )
     return session.program.active
 

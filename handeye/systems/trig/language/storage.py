@@ -85,7 +85,7 @@ def _step_faults(node: Node, positions: Positions) -> Iterator[str]:
     if node.name is not None and not (re.fullmatch(NAME, node.name) and len(node.name) <= LONGEST):
         yield f"step {node.id} has a name that is not valid"
     if node.name is not None and (not node.shown or node.type == "loop"):
-        yield f"step {node.id} has a name, which a step of type {node.type} cannot have"
+        yield f"step {node.id} has a name, but a step of type {node.type} cannot have one"
     position = positions.get(node.position or "")
     if (node.type in ("normal", "guarded", "savpos")) != (position is not None):
         yield f"step {node.id}, of type {node.type}, {'must not have' if position else 'needs'} a position"

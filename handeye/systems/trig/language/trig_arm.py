@@ -112,7 +112,8 @@ class TrigArm(ABC):
 
     @abstractmethod
     def feel(self, goal: Place, vector: Vector3, threshold: float, halted: Halted) -> Arrival:
-        """Go slowly and straight to a place, until the weighted force on the finger exceeds a threshold (N)."""
+        """Go slowly and straight to a place. Stop if the force on the finger, as the dot product with `vector`, exceeds
+        a threshold (N)."""
 
     @property
     @abstractmethod

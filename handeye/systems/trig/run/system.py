@@ -35,7 +35,7 @@ class TaughtSystem(System):
     state = TaughtState
     words = StepperWords(
         about=("The program runs one step at a time, as it was taught; the arrow marks the next step.",),
-        places=("PLACE is a line (8), the name of a step, or a kind of step (LOOP, GRASP). WHAT is one of",),
+        places=("PLACE is a line number, a step's name, or a kind of step (LOOP, GRASP). WHAT is one of",),
         units="millimetres, degrees, newtons",
         commands={
             "proceed": "repeat the step that called the operator, forwards or backwards",

@@ -1,9 +1,9 @@
 """Faults after a run: changes that a person makes to a finished pump before the arm undoes its work. The arm does not
 know of these changes.
 
-The person's hand is not simulated. A part that is removed is put on the tray below the floor, where nothing
-touches it. A part that is moved is placed elsewhere, at rest. Glue is modelled as a weld. A screw is
-tightened by a torque.
+The person's hand is not simulated. A part that is removed is put on the tray below the floor, where nothing touches
+it. A part that is moved is placed elsewhere, at rest. Glue is modelled as a weld. To tighten a screw, the simulation
+applies a torque to it.
 """
 
 from collections.abc import Callable, Mapping
@@ -113,8 +113,8 @@ _OF_A_STACK: Final[Mapping[str, tuple[str, Make]]] = {
 
 
 def disturbances() -> tuple[Disturbance, ...]:
-    """Return the changes that can be made to a whole pump, and after them the changes that can be made to a pump whose
-    top has just been put on.
+    """Return all changes. First come the changes to a finished pump, then the changes to a pump whose top has just
+    been put on.
     """
     return tuple(
         Disturbance(name=name, meaning=meaning, make=make, after=after)

@@ -122,7 +122,7 @@ def _gasket() -> Iterator[PartFault]:
             errors=(SEARCH_EXHAUSTED,),
             # A gasket that goes down beside the pins does not cover the place where the hand measures its thickness.
             calls=(detect.GASKET_OFF, detect.ON_PINS, detect.TOO_LOW),
-            harmless="Fingers that close on the gasket turn it straight.",
+            harmless="The fingers straighten the gasket when they close on it.",
         ),
         Size(unit="deg", usual=12.0, limits=(-90.0, 90.0)),
     )  # fmt: skip

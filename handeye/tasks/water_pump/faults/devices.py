@@ -59,8 +59,8 @@ _FACTOR: Final = Size(unit="", usual=1.04, limits=(0.1, 5.0))
 _PERCENT_LEFT: Final = (0.0, 100.0)
 
 _WITHIN_AGREEMENT: Final = (
-    "Even without a fault, the two sensors of a joint may differ by up to 2 % of a long motion. Near zero, a "
-    "factor hardly changes a reading."
+    "Even without a fault, the two sensors of a joint may differ by up to 2 % of a long motion. A wrong factor "
+    "hardly changes a reading that is near zero."
 )
 _WITHIN_SEARCHES: Final = "The searches and CENTER find parts in spite of small displacements."
 _WITHIN_DRIVES: Final = (
@@ -262,8 +262,8 @@ def _screwdriver() -> Iterator[DeviceFault]:
         ExpectedDetection(errors=(CURRENT_WRONG,)),
     )  # fmt: skip
     within = (
-        "When a screw seats, the noise of the current hides a torque that is 1.1 times too large. When the motor "
-        "starts, the noise hides a torque of .7 times the true torque."
+        "When a screw seats, the noise of the current hides a measured torque of 1.1 times the true torque. When "
+        "the motor starts, the noise hides a measured torque of .7 times the true torque."
     )
     yield _fault(
         f"{current}.factor", "The current of the screwdriver's motor shows the true torque times this "

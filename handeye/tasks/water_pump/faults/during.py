@@ -213,7 +213,7 @@ class Mishaps(Mechanism[MishapsState]):
                 raise ValueError("a fault has an impossible time")
             if (own.seconds is None or mishap.watched is None) != (own.place is None):
                 raise ValueError(
-                    "a fault has a place although it can have none, or has no place although it needs one"
+                    "a fault has a place although it must not have one, or has no place although it needs one"
                 )
 
     def restore(self, state: MishapsState) -> None:

@@ -163,7 +163,7 @@ def _screws() -> Iterator[MishapFault]:
         )
         meaning = (
             f"A person loosens screw {number} by this number of turns, {LATER_S:.0f} s after the stage began. In "
-            "the last stage, the program tightens the screw again before this moment."
+            "the last stage, the program has finished tightening the screws by then."
         )
         yield declared(
             f"screw.{number}.loosened", meaning, _loosened_by(number - 1), expected, size, stage=LAST_STAGE,

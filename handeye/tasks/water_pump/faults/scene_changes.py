@@ -112,7 +112,7 @@ def strip(hole: int, spec: mujoco.MjSpec, _: float) -> None:
 
 
 def chip(spec: mujoco.MjSpec, high: float) -> None:
-    """Put a chip under the end of the top that is farther from its hub, and lift the top onto the chip."""
+    """Put a chip under one end of the top, the end that is farther from the top's hub. Lift the top onto the chip."""
     d = dimensions()
     (x, y), stand = d.all("top_stand.grasp"), d("top_stand.height")
     chip = spec.body("top_stand").add_geom(

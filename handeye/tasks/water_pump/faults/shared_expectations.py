@@ -28,9 +28,9 @@ DRIVE_FIRST: Final = "drive the first two screws"
 DRIVE_LAST: Final = "drive the last four screws"
 
 ASTRAY: Final = "{what}: THE BASE IS LOST, OR A JOINT READS WRONG"
-"""Calls to the operator for a joint that has read wrong from the beginning. These calls name neither table nor
-blocks. The joint's two sensors agree, and the camera is calibrated with the wrong readings, so only the parts in
-the cell reveal the error.
+"""Calls to the operator when the readings of a joint have been wrong from the beginning. These calls do not name the
+table or the blocks. The joint's two sensors agree, and the camera is calibrated with the wrong readings, so only the
+parts in the cell reveal the error.
 """
 JOINT_OR_PLACE: Final = "{what}, OR A JOINT READS WRONG"
 """Calls to the operator if a fixture or part is not at its expected or earlier place, or if a hole or pin is not
@@ -79,9 +79,9 @@ ONCE: Final = {
     NOTHING_HELD: (NOT_WHERE_SEEN, NOT_LIFTED, NO_DRIVER, NO_TOP),
     SEARCH_EXHAUSTED: (PIN_IN_NO_HOLE, ON_PINS, SCREW_IN_NO_HOLE, NOT_WHERE_SEEN, NO_BASE),
 }
-"""Errors that name the same fault as a call to the operator. For each error, the calls that are equivalent to it: the
-careful program names the fault with one of these calls, and a program that tries every step only once, like the
-program of 1973, reports the fault with the error.
+"""For each error, the calls to the operator that have the same meaning. If there is a fault, the careful program calls
+the operator with one of these calls. A program that tries every step only once, like the program of 1973, ends with
+the error instead.
 """
 
 STIFF_ROTOR: Final = "THE ROTOR IS HARD TO TURN, OR A JOINT OF THE ARM IS"
@@ -180,7 +180,7 @@ def screw_of(hole: int) -> int:
 
 def if_used(number: int, expected: ExpectedDetection) -> ExpectedDetection:
     """Return `expected` if the program uses the screw or hole with this number. A pump with seven screws has a seventh
-    hole, and the program uses neither this screw nor this hole. For number 7, the expectation is therefore unknown:
-    only the referee reports the faults.
+    hole, and the program uses neither this screw nor this hole. For number 7, no expectation is therefore stated: only
+    the referee can notice a fault of this screw or hole.
     """
     return expected if number <= len(SCREWED) else UNKNOWN

@@ -71,7 +71,7 @@ class PumpClaims:
         """Return the claim that the torque stop ended the driving of a screw at a hole."""
         socket = self.places.socket(hole)
         return Claim(
-            says="the torque stop ends a drive",
+            says="the torque stop ends the driving of a screw",
             where=f"hole {hole + 1}",
             phases=(
                 Phase(
@@ -216,7 +216,7 @@ class PumpClaims:
         first, second = self.corner(one), self.corner(other)
         limits = Limits(-0.02 * INCH, 0.02 * INCH)
         return Claim(
-            says="the fingers feel the face of the base at the same height at both corner holes of a side, with a "
+            says="the fingers feel that the face of the base is equally high at both corner holes of a side, with a "
             "tolerance of .02 inch",
             where=f"holes {_CORNERS[one] + 1} and {_CORNERS[other] + 1}",
             phases=(
@@ -267,8 +267,8 @@ class PumpClaims:
         limits = Limits(high - 0.16 * INCH, high + 0.12 * INCH)
         by = HeightWithin(of=self.places.touched(end), over=self.places.table, limits=limits)
         return Claim(
-            says="after letting go of the pin, the fingers feel the end of the pin in the holder 3.5 inches over "
-            "the table, with a tolerance of .12 inch",
+            says="after letting go of the pin, the fingers feel that the end of the pin in the holder is 3.5 inches "
+            "over the table, with a tolerance of .12 inch",
             where=f"pin {number + 1}",
             phases=(Phase(by=(by,), undone=(Gripped(where=held), Released(where=held))),),
         )

@@ -44,7 +44,7 @@ def _sensed(screws: int) -> Iterator[Obligation]:
         Obligation(finding="gasket_height", claims=heads, rests=_LAYERS),
         Obligation(
             finding="gasket_place", claims=(claims.gasket(),),
-            rests="The pictures reveal an edge of the gasket only if it is visibly out of place.",
+            rests="The pictures show a displaced gasket only if one of its edges is visibly out of place.",
         ),
         Obligation(finding="top_height", claims=heads, rests=_LAYERS),
         Obligation(
@@ -98,7 +98,8 @@ def _sensed(screws: int) -> Iterator[Obligation]:
         Obligation(finding="motor", claims=(claims.motor_off(),), rests=_SERVO),
         Obligation(
             finding="rest", claims=(claims.released(),),
-            rests="The program notices a hanging part only if another finding requires a touch of this part.",
+            rests="The program notices that a part hangs from the hand only if it must touch this part for another "
+            "finding.",
         ),
     )  # fmt: skip
 
@@ -121,7 +122,7 @@ _SERVO: Final = (
     "The arm and the hand have executed all commands, because each step waits for the end of its motion."
 )
 _UNSENSED: Final = {
-    "screws_hold": "A test of whether a screw holds would loosen the screw.",
+    "screws_hold": "The arm cannot test whether a screw holds without loosening the screw.",
     "threads_scarred": "The arm does not feel a scar; the referee only warns of one.",
     "floor": "No step looks under the table.",
     "tray": (
@@ -139,4 +140,4 @@ _UNSENSED: Final = {
     "held": "In the simulation, only the arm acts on the parts.",
     "numbers": "In the simulation, all numbers are finite.",
 }
-"""Findings that no program is asked to show, each with the reason."""
+"""Findings that programs need not show, each with the reason."""

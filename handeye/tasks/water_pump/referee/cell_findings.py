@@ -104,8 +104,8 @@ def _altered(truth: Truth) -> dict[str, list[str]]:
 
 
 def _as_it_is_to_be(truth: Truth) -> mujoco.MjModel:
-    """Return the scene of the design, but with the present value of each quantity that devices may change or that
-    another finding judges.
+    """Return the scene of the design, except for two kinds of quantities: those that devices may change, and those
+    that another finding judges. These quantities have their present values.
     """
     model, scene, holes = truth.model, copy.deepcopy(truth.drawn), holes_of(truth)
     (threads,) = (part for part in truth.mechanisms if isinstance(part, Threads))
@@ -188,8 +188,8 @@ def _upright(measured: SettledState, bodies: Sequence[str], limit_deg: float, su
 
 
 def _put_away(measured: SettledState, hidden: Sequence[int]) -> Finding:
-    """Judge whether the hidden bodies of screws in threads are on the tray. Also judge whether every loose body that
-    is no part of the pump is where the drawing puts it, for example a nut in a user's own scene.
+    """Judge whether the hidden bodies of screws in threads are on the tray. Also judge whether every other loose body,
+    such as a nut in a user's own scene, is where the drawing puts it.
     """
     drawn, joints = measured.drawn, measured.drawn.jnt_type == mujoco.mjtJoint.mjJNT_FREE
     loose = {drawn.body(body).name for body in drawn.jnt_bodyid[joints]}
@@ -197,7 +197,7 @@ def _put_away(measured: SettledState, hidden: Sequence[int]) -> Finding:
     strayed = {name: measured.strayed([name], [name]) for name in strangers}
     farthest = max(strayed, key=strayed.__getitem__, default="")
     if strayed and strayed[farthest] * 1e3 > limits.TRAY:
-        subject = "displacement, relative to the drawing, of an object that does not belong to the pump"
+        subject = "distance of a foreign object from its place on the drawing"
         return mm(strayed[farthest], limits.TRAY, f"{subject}: {farthest}")
     return mm(
         max((measured.from_site(f"screw{k}", f"park{k}") for k in hidden), default=0.0), limits.TRAY,
@@ -223,7 +223,7 @@ def _greatest(
 
 def _hand(measured: SettledState, parts: Sequence[str]) -> Finding:
     """Judge the distance of the hand from the nearest of the given parts. Shapes that are fixed to a part belong to
-    that part. Distances are measured up to twice the limit.
+    that part. A distance of more than twice the limit is reported as twice the limit.
     """
     model = measured.model
     solid = (model.geom_contype | model.geom_conaffinity) != 0

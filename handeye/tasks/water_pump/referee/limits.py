@@ -11,8 +11,8 @@ BASE_TILT: Final = 0.3  # deg: 1 mm over the length of the plate's shorter half
 BASE_YAW: Final = 1.0  # deg, of the base's edge against the far block: the assembly study's criterion
 
 LAYER_HEIGHT: Final = 0.3
-"""Greatest deviation (mm) of a layer from its nominal height, measured at each screw hole. A deviation of half this
-limit would already reveal a lost chip under the layer (assembly study).
+"""Greatest deviation (mm) of a layer from its nominal height, measured at each screw hole. A chip that was lost under
+the layer would already show as a deviation of half this limit (assembly study).
 """
 
 SCREW_GAP: Final = 0.2
@@ -31,8 +31,8 @@ SCREW_STRAIN: Final = 420.0
 screws that are tightened later shift the load. In pumps that the arm has made, the force is at most 298 N.
 """
 SCREW_HOLD: Final = 0.02
-"""Torque (N m) that must at least be necessary to turn a screw back. It is the friction torque of a clean thread
-without a clamping force. With a clamping force of 40 N, this torque is at least .026 N m in any world. Without
+"""Least torque (N m) that may turn a screw back. It is the friction torque of a clean thread without a clamping force.
+With a clamping force of 40 N, a torque of at least .026 N m is needed to turn a screw back in any world. Without
 friction, the clamping force itself would turn the screw out.
 """
 SCREW_SIZE: Final = 0.35
@@ -49,15 +49,15 @@ thread of class 2: half the difference between the pitch diameters .2127 in and 
 """
 SCREW_LEAN: Final = 1.0  # deg: at this tilt, one side of a head 11 mm wide is lifted by about SCREW_GAP
 SCARS: Final = 0
-"""Greatest number of scarred threads; a larger number only causes a warning. The effect of a scar on the pump is
-judged by other limits: a screw that was backed out and driven straight holds like any other if it clamps
-(SCREW_CLAMP), stands straight (SCREW_LEAN) and has its length of thread (SCREW_THREAD). But a person who takes the
-pump apart must know of the scar, because a thread that was cut twice strips sooner.
+"""Greatest number of scarred threads; a larger number only causes a warning. Other limits judge how a scar affects the
+pump: a screw that was backed out and driven straight holds like any other screw if it clamps (SCREW_CLAMP), stands
+straight (SCREW_LEAN) and is deep enough in its thread (SCREW_THREAD). But a person who takes the pump apart must know
+of the scar, because a thread that was cut twice strips sooner.
 """
 SOFT: Final = 0.03
 """Tolerated overlap beyond the clearance of a shank or pin in its hole (mm). Contacts are soft: a shank that was
-pressed on a bore went into it by .02 mm at 4 to 32 N, and by .033 mm at 64 N. A shank that cuts metal goes
-farther.
+pressed against the wall of a bore went into the wall by .02 mm at 4 to 32 N, and by .033 mm at 64 N. A shank that cuts
+metal goes deeper.
 """
 
 PIN_PLACE: Final = 3.0  # mm from its place in the holder: the holder's hole and its bevel
@@ -79,7 +79,8 @@ RACK_PLACE: Final = 3.0  # mm from its place in the rack: guides and their bevel
 ROTOR_TORQUE: Final = 0.1
 """Greatest torque (N m) to turn the rotor all the way round, in both directions: twice the friction of the rotor,
 which is .05 N m in every world. Inertia and bearing add .01 N m at the speed of the referee's turn. A rotor that needs
-.35 N m binds, although the check in our notes on the system of 1973, 40 oz at the crank, accepts this torque.
+.35 N m binds. Our notes on the system of 1973 describe a weaker check: it pushes the crank with 40 oz, and so accepts
+a rotor that needs .35 N m.
 """
 
 ROTOR_PLACE: Final = 0.1
@@ -88,8 +89,8 @@ ROTOR_PLACE: Final = 0.1
 ROTOR_LEAN: Final = 0.1  # deg from the top's axis: in the design, the two axes are parallel
 
 STILL: Final = 1.0
-"""Greatest speed of any point of a part or of the arm (mm/s). While contacts come to rest, parts at rest move at
-up to .1 mm/s; a joint held by its brake creeps at 9e-6 rad/s, which is .01 mm/s at the hand.
+"""Greatest speed of any point of a part or of the arm (mm/s). While contacts settle, even a part that lies still moves
+at up to .1 mm/s; a joint held by its brake creeps at 9e-6 rad/s, which is .01 mm/s at the hand.
 """
 
 REST: Final = 0.25
@@ -107,8 +108,8 @@ place from which it was lifted. If the gasket were displaced by 6.4 mm, the fing
 its holes.
 """
 APART_TURN: Final = 3.0
-"""Greatest turn (degrees) of a part. At this turn, the end of a part of the base's length has moved by half of the
-fingers' clearance.
+"""Greatest turn (degrees) of a part. If a part that is as long as the base is turned by this angle, its end moves by
+half of the fingers' clearance.
 """
 
 SETTLE: Final = 0.2  # s: long enough to compute the present forces, and for unsupported parts to fall

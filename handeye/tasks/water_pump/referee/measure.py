@@ -64,7 +64,7 @@ def misfit(measured: SettledState, layer: str, hole: int) -> float:
 
 
 def clearance(measured: SettledState, layer: str, hole: int) -> float:
-    """Return the radial clearance of a screw's shank in its hole in gasket or top (m)."""
+    """Return the radial clearance (m) of a screw's shank in the hole of a layer, which is the gasket or the top."""
     model = measured.model
     return float(model.site(f"{layer}_hole{hole}").size[0] - model.geom(f"shank{hole}").size[0])
 

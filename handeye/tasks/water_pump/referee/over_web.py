@@ -14,8 +14,8 @@ from handeye.tasks.stanford_cell.arm import ARM
 from handeye.tasks.stanford_cell.dimensions import web_centre
 
 OVER_WEB: Final = hypot(INCH / 3, INCH / 4) / MILLIMETRE
-"""Greatest horizontal distance (mm) of the hand from the middle of the web. In 1973, vision was accurate to 1/3 in
-along x and 1/4 in along y; this limit is the distance if both errors occur together.
+"""Greatest horizontal distance (mm) of the hand from the middle of the web. In 1973, vision was accurate to 1/3 inch
+along x and 1/4 inch along y; this limit is the distance if both errors occur together.
 """
 ACROSS_WEB: Final = 3.0
 """Greatest angle (deg) between the finger line and the line between the large holes. Two pictures determine the

@@ -43,8 +43,8 @@ def dress(shaper: Shaper) -> None:
 _REEL_RADIUS_M: Final = 0.100
 _TELETYPE_PLACE_M: Final = (-1.70, -0.55)
 _TURN: Final = [math.cos(math.radians(-5)), 0.0, 0.0, math.sin(math.radians(-5))]
-"""Quaternion that turns the furniture towards the lamp of the photographs. Without this turn, some faces would be
-nearly parallel to the light and look speckled.
+"""Quaternion that turns the furniture towards the lamp that lights the photographs. Without this turn, some faces
+would be nearly parallel to the light and look speckled.
 """
 
 

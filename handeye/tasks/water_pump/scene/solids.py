@@ -63,8 +63,9 @@ def tube(points: Sequence[tuple[float, float, float]], radius: float) -> Manifol
 
 
 def bore(radius: float, z0: float, z1: float, *, above: float = 0.0, below: float = 0.0) -> Manifold:
-    """Return the solid to subtract for a hole from z0 to z1 (m), with 45 degree chamfers `above` and `below`
-    (m)."""
+    """Return the solid that is subtracted to make a hole from z0 to z1 (m). `above` and `below` are the widths (m) of
+    the 45 degree chamfers at its ends.
+    """
     hole = Manifold.cylinder(z1 - z0 + 2e-4, radius, radius, _ROUND).translate((0.0, 0.0, z0 - 1e-4))
     if above:
         hole += Manifold.cylinder(above, radius, radius + above, _ROUND).translate((0.0, 0.0, z1 - above))

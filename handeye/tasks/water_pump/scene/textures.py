@@ -39,7 +39,7 @@ def add_textures(spec: mujoco.MjSpec) -> None:
 
 @cache
 def _pixels() -> dict[str, NDArray[np.uint8]]:
-    """Return the pictures of the grains, by name."""
+    """Return the texture of each grain, with the name of the grain as the key."""
     return {
         name: (255 * grain(np.random.default_rng(number)).clip(0, 1)).astype(np.uint8)
         for number, (name, grain) in enumerate(_GRAINS.items())
@@ -120,4 +120,6 @@ _LIKE: Final = {"top": "machined", "block": "machined"}  # materials that have t
 _REPEATS: Final = {
     "belt": 1, "cast": 25.0, "floor": 3.3, "machined": 12.0, "table": 1, "wood": 1, "top": 12.0, "block": 12.0,
 }  # fmt: skip
-"""Repetitions of a grain per metre. The value 1 has a meaning of its own: the grain covers the whole surface once."""
+"""How often the texture of a grain is repeated in a metre. The value 1 has a meaning of its own: the texture covers
+the whole surface once.
+"""

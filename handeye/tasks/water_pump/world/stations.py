@@ -46,8 +46,8 @@ def _boxes(figure: str) -> tuple[Box, ...]:
         boxes = ()
     if not boxes or not all(low < high for b in boxes for low, high in zip(b[:3], b[3:], strict=True)):
         raise BadFile(
-            f"the dimension `{figure}` must be a list of boxes, each with x, y and z of its low corner and of its "
-            "high corner"
+            f"the dimension `{figure}` must be a list of boxes, each given by six numbers: x, y and z of its low "
+            "corner, then x, y and z of its high corner"
         )
     return boxes
 

@@ -31,7 +31,7 @@ USUAL: Final = 6
 
 _VISION: Final = "Vision study, section 3."
 IN_PLAY: Final = 70.0
-"""Greatest displacement of a part along an axis, in percent of its play. This limit keeps the part clear of the
+"""Greatest displacement of a part along an axis, in percent of the part's play. This limit keeps the part clear of the
 corners of its seat.
 """
 
@@ -83,7 +83,7 @@ def _belt() -> Iterator[Quantity]:
 
 def _camera() -> Iterator[Quantity]:
     lenses = ("25mm", "50mm")
-    middle = "Position of the lens centre, relative to the drawing."
+    middle = "Displacement of the lens centre from its place in the drawing."
     turret = f"data sheets of lenses do not give the entrance pupil, and no drawing of the turret is known. {DOUBLED}"
     aside = {way: Normal(0.1) for way in ("ahead", "side", "up")}
     return chain(
