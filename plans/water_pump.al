@@ -710,12 +710,12 @@ DEFINE LAYERS
         HEAD    HEAD2 FACE2 2
         CHANGE  [0 0 1] 1
 
-; The pump against its blocks.
+; The pump against its blocks, as hard as the base was put there.
 DEFINE BLOCKS
         OPEN    0
-        NUDGE   RIM1 [0 50 0] [0 1 0]
+        NUDGE   RIM1 [0 72 0] [0 1 0] ;the driver turns it: one corner is there first, and 50 oz do not turn it back
         CHANGE  [0 0 1] 1
-        NUDGE   RIM2 [-50 0 0] [-1 0 0]
+        NUDGE   RIM2 [-72 0 0] [-1 0 0]
         CHANGE  [0 0 1] 1
 
         STAGE   "find the base"

@@ -3,7 +3,9 @@ inertia and load.
 
 In free air the remaining torque is friction. Friction has the sign of the rate, so a joint's friction is half the
 difference between its torques in the two directions, even if the model of its weight is wrong (as in
-`execution.friction_measurement`).
+`execution.friction_measurement`). This holds if the joint carries the same weight in both directions. If it goes out
+over the table in one direction and back near the column in the other, errors of the weight remain in the difference;
+how far they may reach follows from what the arm has learnt of its weight (`torque_balance`).
 
 A force on the hand acts on several joints at once, as J^T F. At the hand, a torque in one joint alone looks like a
 couple, or like a force at the wrist centre. The lever arm of such a force about the tool centre point is longer than
@@ -22,6 +24,7 @@ from handeye.arm.computed_torque import external_wrench
 from handeye.arm.converters import rate_step, torque_step
 from handeye.arm.exertion import Exertion, columns
 from handeye.arm.model import ArmModel, constants
+from handeye.arm.torque_balance import weight_difference
 from handeye.core.pose import Array
 
 SLIDING_STEPS: Final = 4.0  # rate, in tachometer steps, at which a joint certainly slides; chosen
@@ -35,8 +38,7 @@ step is allowed in addition.
 
 Measured friction is accurate to a quarter of a step plus 2 %, and so is the torque measured in a motion. At twice the
 stated errors, the friction of a sound joint can therefore seem to have grown to 1.08 times its first value, plus half
-a step. The rest of the ratio allows for weight that differs between the two directions. In twelve worlds, sound joints
-reached a ratio of 1.4.
+a step. In twelve worlds, sound joints reached a ratio of 1.4.
 """
 DAMPING_DOUBT: Final = 0.6  # of the viscous friction: its stated spread at twice its size
 WEIGHT_DOUBT: Final = 0.2
@@ -63,13 +65,17 @@ class Stiffness:
     one_way: bool  # it slid in one direction only, so an unmodelled weight would feel the same
 
 
-def stiff(arm: ArmModel, taken: Sequence[Exertion], friction: Array) -> Stiffness | None:
+def stiff(
+    arm: ArmModel, taken: Sequence[Exertion], friction: Array, belief: Array | None = None
+) -> Stiffness | None:
     """Find the joint whose resistance to a motion is much greater than its measured `friction`, shape (n,). Returns
-    None if there is no such joint.
+    None if there is no such joint. In the periods `taken`, nothing may touch the hand: a force on the hand would
+    count as friction. `arm` and `belief` are the arm as weighed, and what it has learnt of its weight since
+    (`torque_balance.balanced`).
 
     Torques are averaged over each direction of sliding of each joint, in arrays of shape (2, n).
     """
-    _, spare, modelled, rates = columns(taken)
+    postures, spare, modelled, rates = columns(taken)
     least = SLIDING_STEPS * rate_step(arm)
     sliding = np.stack((rates > least, rates < -least))  # in either direction, (2, N, n)
     counted = sliding.sum(axis=1)
@@ -83,6 +89,10 @@ def stiff(arm: ArmModel, taken: Sequence[Exertion], friction: Array) -> Stiffnes
     allowed = MAX_DRAG_RATIO * friction + torque_step(arm) / 2
     allowed = allowed + DAMPING_DOUBT * constants(arm).damping * np.where(enough, rate, 0.0).max(axis=0)
     allowed = allowed + np.where(both, 0.0, WEIGHT_DOUBT * np.where(enough, weight, 0.0).max(axis=0))
+    if (drag <= allowed).all():
+        return None
+    errors = weight_difference(arm, postures, sliding, belief)
+    allowed = allowed + np.where(both, np.maximum(errors, 0.0), 0.0)
     joint = int(np.argmax(drag / allowed))
     if drag[joint] <= allowed[joint]:
         return None

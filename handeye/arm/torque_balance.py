@@ -66,7 +66,7 @@ def balanced(
     count = len(taken)
     spare, rate, slid = (each.sum(axis=0) / count for each in each_period)
     if belief is None:
-        belief = _learnt(_prior(arm), *_model(arm, postures[:1]), _doubt(arm) ** 2)
+        belief = _first_belief(arm, postures)
     H, weight = _model(arm, postures[:: max(1, count // 6)])
     rubbing = COULOMB * friction, (1 - slid) * friction
     moving = DAMPING * constants(arm).damping * rate, LOAD * borne
@@ -80,6 +80,29 @@ def balanced(
     told = weight + borne + left
     factors = np.clip((weight + borne)[joints] / told[joints], 0.0, None)
     return belief, Unbalanced(joints=tuple(joints.tolist()), factors=tuple(factors.tolist()))
+
+
+def weight_difference(arm: ArmModel, postures: Array, sliding: Array, belief: Array | None) -> Array:
+    """Return how far errors of masses, mass centres and drives may separate the mean torques of a joint in its two
+    directions: half the greatest plausible difference, shape (n,), for a joint that slid in both directions.
+
+    `arm` is the model with the weighed masses, and `belief` the estimate of its errors, as in `balanced`. `postures`
+    are the positions in N servo periods, shape (N, n). `sliding` marks the periods in which each joint slid forwards
+    and backwards, shape (2, N, n).
+    """
+    if belief is None:
+        belief = _first_belief(arm, postures)
+    masses, centres = (np.swapaxes(each, 1, 2) for each in link_weights(arm, postures))  # (N, joints, links)
+    share = sliding / np.maximum(sliding.sum(axis=1, keepdims=True), 1)
+    between = (share[0] - share[1]) / 2
+    by_mass, by_centre = (np.einsum("Nj,Nji->ji", between, each) for each in (masses, centres))
+    H = np.hstack((by_mass, by_centre, -np.diag(by_mass.sum(axis=1))))
+    return np.asarray(H @ belief[:, 0] + LIMIT * np.sqrt(np.einsum("ij,jk,ik->i", H, belief[:, 1:], H)))
+
+
+def _first_belief(arm: ArmModel, postures: Array) -> Array:
+    """Return the estimate for an arm that has weighed itself at the first of these postures, and has not moved yet."""
+    return _learnt(_prior(arm), *_model(arm, postures[:1]), _doubt(arm) ** 2)
 
 
 def _doubt(arm: ArmModel) -> Array:

@@ -45,6 +45,10 @@ class Trajectory:
         """Total duration, in s."""
         return float(self.times.sum())
 
+    def lift_off(self, period: float) -> int:
+        """Return the number of servo periods of length `period` (s) until the hand has passed its lift-off point."""
+        return math.ceil(float(self.times[0]) / period - 1e-6)
+
     def at(self, time: Array) -> Samples:
         """Return the joint positions, rates and accelerations at times (s) from the start, shape (N,)."""
         ends = np.cumsum(self.times)

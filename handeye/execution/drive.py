@@ -52,10 +52,15 @@ class ArmDrive(ServoLoop):
         return self._pass(self.following(samples, guard, direction, beside))
 
     def glide(
-        self, samples: Samples, guard: Monitor | None = None, direction: Array | None = None
+        self,
+        samples: Samples,
+        guard: Monitor | None = None,
+        direction: Array | None = None,
+        *,
+        lift_off: int = 0,
     ) -> Outcome:
         """Follow set-points through free air. See `gliding`."""
-        return self._pass(self.gliding(samples, guard, direction))
+        return self._pass(self.gliding(samples, guard, direction, lift_off))
 
     def comply(self, course: Course, guard: Monitor | None) -> Outcome:
         """Move along a straight course, pressing, turning or yielding as the course says. The motion ends early if

@@ -87,7 +87,8 @@ def move(run: ExecutionContext, operation: Move) -> Fault | None:
     along = directions(samples, run.arm, run.drive.state.q)
     guards = run.watching(operation.guards)
     _report_faint(run, guards, along[0])
-    return _finish(run, run.drive.glide(samples, monitor(guards), along), guards)
+    lift_off = trajectory.lift_off(run.drive.period)
+    return _finish(run, run.drive.glide(samples, monitor(guards), along, lift_off=lift_off), guards)
 
 
 def _trajectory(

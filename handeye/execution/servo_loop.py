@@ -172,8 +172,10 @@ class ServoLoop(Servo):
         met = yield from self.holding(self.arm.servo.settle)
         return REACHED if guard is not None else self._arrived(off, met, swing)
 
-    def gliding(self, samples: Samples, guard: Monitor | None, direction: Array | None) -> Motion[Outcome]:
-        """Follow set-points through free air. See `following`.
+    def gliding(
+        self, samples: Samples, guard: Monitor | None, direction: Array | None, lift_off: int
+    ) -> Motion[Outcome]:
+        """Follow set-points through free air. `lift_off` is the number of set-points of the lift-off. See `following`.
 
         An obstacle and a force on the hand are two different errors. They are distinguished by the distance of the
         hand from its set-points in the middle of the motion. A hand that meets an obstacle lags behind its set-points
@@ -181,9 +183,11 @@ class ServoLoop(Servo):
 
         The torques are compared with the arm's weight only if the hand is clear of all objects when the motion begins.
         After a guarded motion, for example, a held pin may stand in a hole, and the hole then bears part of the
-        weight.
+        weight. And the fingers may press against a wall of the hole; until they are out of the hole, this force looks
+        like friction. So unless the hand is clear, friction is judged only after the lift-off.
         """
         clear, self.state.clear = self.state.clear, False
+        lift_off = 0 if clear else lift_off
         self.state.in_air = False
         taken: list[Exertion] = []
         outcome = yield from self.following(samples, guard, direction, taken=taken)
@@ -191,9 +195,9 @@ class ServoLoop(Servo):
             yield from self.zeroing()
             return self._force_in_air()
         if outcome == REACHED and self.state.load <= LIGHT:
-            outcome = self._dragging(taken) or REACHED
+            outcome = self._dragging(taken[lift_off:]) or REACHED
         elif isinstance(outcome.cause, HandAstray | JointBehind) and self.state.load <= LIGHT:
-            first_half = taken[: (len(samples) + 1) // 2]  # long before the hand met anything
+            first_half = taken[lift_off : (len(samples) + 1) // 2]  # long before the hand met anything
             outcome = self._dragging(first_half, outcome.cause.joint) or outcome
         if outcome == REACHED and taken and self.state.links is not None and clear:
             outcome = self._off_balance(taken) or REACHED
@@ -444,7 +448,7 @@ class ServoLoop(Servo):
         If a joint lagged behind, no other joint is blamed.
         """
         friction = self.state.friction
-        found = stiff(self.arm, taken, friction) if taken and friction.any() else None
+        found = stiff(self.built, taken, friction, self.state.weights) if taken and friction.any() else None
         if found is None or lagging not in ("", self.arm.joints[found.joint].name):
             return None
         cause = JointAlone(

@@ -207,6 +207,7 @@ def fit_circle(view: View, points: Array, z: float, diameter: float) -> tuple[fl
         excess = radius - diameter / 2
         spread = np.abs(excess - _median(excess))
         kept = spread <= max(0.0015, 2 * _median(spread))  # 1.5 mm is about one point
+        kept &= radius > 0.0  # a point in the middle of the others tells no direction
         move = _least_squares(dx[kept] / radius[kept], dy[kept] / radius[kept], excess[kept])
         if move is None:
             return None

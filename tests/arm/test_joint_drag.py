@@ -3,10 +3,13 @@
 import numpy as np
 import pytest
 
+from handeye.arm.dynamics import gravity
 from handeye.arm.exertion import Exertion
 from handeye.arm.joint_drag import Stiffness, alone, stiff
 from handeye.arm.kinematics import jacobian
 from handeye.arm.robots.stanford import STANFORD
+from handeye.arm.torque_balance import balanced
+from handeye.arm.weighing import weighed
 from handeye.core.pose import Array
 from handeye.core.units import DEGREE, INCH
 
@@ -41,6 +44,35 @@ def test_what_a_joint_takes_on_the_way_out_alone_may_be_a_weight() -> None:
     told = stiff(STANFORD, [Exertion(np.zeros(6), 5 * FRICTION, np.zeros(6), SLIDES)] * 30, FRICTION)
     assert told is not None
     assert told.one_way
+
+
+LIGHTER = weighed(STANFORD, (0.85,) * 6)
+IN = np.array([-20.0, 60.0, 8.0 * INCH / DEGREE, 0.0, 76.0, 70.0]) * DEGREE
+
+
+def reached(friction: Array) -> list[Exertion]:
+    """A motion of an arm that is lighter than modelled. The shoulder turns one way where the boom is drawn in, and the
+    other way where it reaches out over the table.
+    """
+    unmodelled = [gravity(LIGHTER, q) - gravity(STANFORD, q) for q in (IN, AT)]
+    return [
+        Exertion(q, error + side * friction, gravity(STANFORD, q), side * SLIDES)
+        for q, error, side in zip((IN, AT) * 30, unmodelled * 30, (-1, 1) * 30, strict=True)
+    ]
+
+
+def test_a_shoulder_that_carries_more_in_one_direction_is_not_stiff() -> None:
+    assert stiff(STANFORD, reached(FRICTION), FRICTION) is None
+
+
+def test_a_stiff_shoulder_is_noticed_by_an_arm_that_has_learnt_its_weight() -> None:
+    belief = None
+    for _ in range(20):
+        belief, _ = balanced(STANFORD, reached(FRICTION), FRICTION, belief, np.zeros(6))
+    takes = FRICTION * (1, 6, 1, 1, 1, 1)
+    found = stiff(STANFORD, reached(takes), FRICTION, belief)
+    assert found is not None
+    assert found.joint == 1
 
 
 @pytest.mark.parametrize("joint", [0, 2, 3, 4, 5])  # the second lifts the hand as a force upwards would

@@ -52,6 +52,10 @@ def test_the_worked_example_neither_overshoots_nor_turns_back() -> None:
     assert np.abs(samples.qdd).max() == pytest.approx(67.5, abs=1e-3)
 
 
+def test_the_lift_off_takes_the_time_of_the_first_segment() -> None:
+    assert example().lift_off(JIFFY) == 30
+
+
 def test_a_trajectory_is_smooth_to_the_second_derivative_at_its_knots() -> None:
     trajectory = moves()[0]
     ends = np.cumsum(trajectory.times)[:2]

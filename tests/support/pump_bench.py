@@ -277,9 +277,11 @@ def at_standard(x: float = 0.0, y: float = 0.0, turn: float = 0.0) -> dict[str, 
     return {"base": translated(standard(), (x * INCH, y * INCH, 1e-5)) @ planar(0, 0, 0, turn * DEGREE)}
 
 
-def stacked(x: float = 0.0, y: float = 0.0) -> dict[str, Pose]:
-    """Base, gasket and top in their places, or off them (in), held together by the two pins, without screws."""
-    X_WP, seat = at_standard(x, y)["base"], base_top()
+def stacked(x: float = 0.0, y: float = 0.0, turn: float = 0.0) -> dict[str, Pose]:
+    """Base, gasket and top in their places, or off them (in, degrees), held together by the two pins, without
+    screws.
+    """
+    X_WP, seat = at_standard(x, y, turn)["base"], base_top()
     lay = {"base": X_WP, "gasket": X_WP @ planar(0, 0, seat, 0)}
     lay["top"] = X_WP @ planar(0, 0, seat + dimensions()("gasket.thickness"), 0)
     for pin, hole in zip(

@@ -89,6 +89,12 @@ def test_points_that_lie_off_a_circle_do_not_move_its_centre():
     assert centre == pytest.approx(MIDDLE[:2], abs=1e-5)
 
 
+@pytest.mark.filterwarnings("error")
+def test_border_points_that_coincide_give_no_circle():
+    points = CLOSE.project(np.tile(MIDDLE, (24, 1)))
+    assert fit_circle(CLOSE, points, float(MIDDLE[2]), LARGE.diameter) is None
+
+
 def test_a_gasket_hole_whose_centre_alone_is_too_far_off_is_refused():
     """A gasket lighter than the hole beneath shows its own hole whole: the rim bulges less than the centre moves."""
     base, before, after = part(180 * DEGREE), Canvas(), Canvas()
