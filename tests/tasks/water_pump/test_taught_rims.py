@@ -27,12 +27,15 @@ def test_at_the_felt_height_fingers_reach_the_casting_and_the_palm_passes_the_cr
     assert tip < base_top() - LEAN - SCATTER
 
 
+@pytest.mark.parametrize("beside", [0.0, 0.06])
 @pytest.mark.parametrize("hole", range(6))
-def test_closed_fingers_meet_the_head_and_clear_the_hub_by_more_than_they_are_off(hole: int) -> None:
+def test_closed_fingers_meet_the_head_and_clear_the_hub_by_more_than_they_are_off(
+    hole: int, beside: float
+) -> None:
     d, hand = dimensions(), STANFORD.hand
     x, y, z = load_taught(plans() / "water_pump.toml").positions[f"HEAD{hole}"].at[:3]
     hx, hy = screw_holes(6)[hole]
-    away = np.abs((x - hx, y - hy)) - (hand.finger_width / 2, hand.finger_thickness)
+    away = np.abs((x - hx, y - beside * INCH - hy)) - (hand.finger_width / 2, hand.finger_thickness)
     assert (away < 0).all()  # the middle of the head is under them
     beside = abs(x) - hand.finger_width / 2 - d("top.hub_length") / 2
     assert beside > LEAN + SCATTER
