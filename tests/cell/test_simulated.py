@@ -198,6 +198,7 @@ def test_both_switches_fire_on_the_driver_and_the_gap_is_its_width(cell: Simulat
 
 
 def test_a_grip_presses_with_the_force_that_was_asked_for(cell: SimulatedCell) -> None:
+    run(cell, Drive(gap=0.05), 40)
     place_arm(cell, 6.0, 33.0, 7.0, math.pi / 2)
     run(cell, Drive(gap=0.0, grip=40.0), 60)
     forces = [cell.truth.data.sensor(f"stanford/switch_{side}").data[0] for side in "ab"]

@@ -5,12 +5,14 @@ from typing import Any
 import mujoco
 import pytest
 from driving import tick
-from finished import stacked, tightening
+from finished import put, stacked, tightening
 
-from handeye.cell.physics_stepper import MIDDLE
+from handeye.cell.physics_stepper import FINER, MIDDLE
+from handeye.core.pose import pose
 
 pytestmark = pytest.mark.slow
 SHORT = 1 / 960
+SPEED = 6.0  # m/s; at 3 m/s the force is 960 N
 
 
 @pytest.fixture
@@ -46,3 +48,14 @@ def test_a_screw_turns_in_short_steps_whatever_turns_it(last: list[float]) -> No
             assert last[0] == SHORT
             turning += 1
     assert turning >= 3
+
+
+def test_a_finger_that_is_crushed_takes_fine_steps(last: list[float]) -> None:
+    cell = stacked()
+    data = cell.truth.data
+    tool = data.site("stanford/tool")
+    put(cell.truth, "pin0", pose(tool.xmat.reshape(3, 3), tool.xpos))
+    for finger in ("stanford/finger_a", "stanford/finger_b"):
+        data.joint(finger).qpos, data.joint(finger).qvel = 0.01, -SPEED
+    tick(cell.devices)
+    assert last[0] == SHORT / FINER
