@@ -124,9 +124,9 @@ class Weakness:
 def weakness(
     arm: ArmModel, q: Array, wanted: Array, *, turning: bool = False, weight: float = 0.0
 ) -> Weakness | None:
-    """Find the joint that keeps the hand from exerting a force (N, in W) at one of the configurations, shape (N, n).
-    Returns None if the hand can exert the force at all configurations. If `turning` is True, `wanted` is a moment, in
-    N m. `weight` (N) is the weight of a load in the hand.
+    """Find the joint that is too weak to let the hand exert the force `wanted` (N, in W) at each of the configurations
+    `q`, shape (N, n). Returns None if the hand can exert the force at all configurations. If `turning` is True,
+    `wanted` is a moment, in N m. `weight` (N) is the weight of a load in the hand.
     """
     size = float(np.linalg.norm(wanted))
     if size == 0.0:
