@@ -184,7 +184,9 @@ class Checks:
         self._obstacles = Obstacles(self.program)
 
     def forget(self) -> None:
-        """Forget the state of the hand, because at a step reached by a jump the hand may hold another object."""
+        """Forget the state of the hand. This is needed at a step that only a jump reaches, because the hand may then
+        hold another object.
+        """
         self._grip, self._load = GraspState(self.program, self.arm.hand), None
 
     def follow(self, number: int, step: Step) -> None:
