@@ -1,4 +1,6 @@
-"""Hidden seeds of the agents' bench: their file, and the published hash that fixes them."""
+"""Hidden seeds of the agents' bench: their file, and their published hash, which shows that the seeds have not been
+changed.
+"""
 
 import hashlib
 from collections.abc import Mapping, Sequence

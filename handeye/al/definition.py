@@ -134,7 +134,7 @@ class Instruction(Record, frozen=True, kw_only=True):
 
     @property
     def ours(self) -> bool:
-        """True for an addition of handeye."""
+        """True if the instruction is an addition of handeye to the arm language of 1973."""
         return self.document is None
 
     @property

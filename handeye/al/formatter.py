@@ -52,8 +52,8 @@ def _is_tight(tokens: Sequence[Token]) -> bool:
     """Return True if no blank may come between the last two tokens. This is so if the first of the two is a bracket,
     or a comma that is not followed by a blank.
 
-    A blank after a comma is kept, because `0, 5` are two numbers, and `0,5` is one number written wrongly. For the
-    same reason, no blank is put into `O.5`, which has the letter O in place of a zero.
+    A blank after a comma is kept, because `0, 5` are two numbers, and `0,5` is one number written wrongly. No blank is
+    put into `O.5`, because this is one number too, written wrongly with the letter O in place of a zero.
     """
     before, token = tokens[-2:]
     close = before.end == token.start

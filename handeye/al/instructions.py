@@ -96,8 +96,8 @@ _MEANINGS: Final = {
     "(inches), error 7 if the part is thicker than the maximum (inches)",
     "CENTER": "close the fingers on a part without pushing it: the arm moves instead; error 2 if there is no part or "
     "the part is thinner than the minimum (inches)",
-    "SKIPE": "skip the next instruction if the last action raised this error; the test clears the error",
-    "SKIPN": "skip the next instruction if the last action did not raise this error; the test clears the error",
+    "SKIPE": "if the last action raised this error, clear the error and skip the next instruction",
+    "SKIPN": "if the last action did not raise this error, skip the next instruction; if it did, clear the error",
     "SEARCH": (
         "start a search of places on a square spiral, one step (inches) apart, with three steps to each side; with "
         "ALONG, the places are on a line in the given direction (degrees from the x axis of the table), with four "

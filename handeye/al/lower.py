@@ -36,7 +36,9 @@ _MODIFIER_KINDS = {"FORCE": "press", "FREE": "give way", "SPIN": "be turned", "V
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Lowered:
-    """The stages and steps of an expanded program, with the statement of each step and the RESTOREs of some steps."""
+    """The stages and steps of an expanded program, with the statement of each step. `shifts` gives the RESTORE
+    statements of each step that has any.
+    """
 
     stages: tuple[str, ...]
     steps: tuple[Step, ...]

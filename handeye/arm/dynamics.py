@@ -79,7 +79,7 @@ def _dynamics(arm: ArmModel, q: Array, qd: Array | None) -> Dynamics:
 
 
 def link_weights(arm: ArmModel, q: Array) -> tuple[Array, Array]:
-    """Return two arrays of shape (..., i, j). The first is the torque of joint j that carries the weight of link i.
+    """Return two arrays of shape (..., i, j). The first is the torque with which joint j carries the weight of link i.
     The second is the part of this torque that is due to the distance between the origin of the link's frame and the
     link's mass centre.
     """

@@ -1,5 +1,5 @@
-"""Decides whether a single joint, or a force on the hand, explains the joint torques that remain beyond weight,
-inertia and load.
+"""Decides what explains the joint torques that remain beyond weight, inertia and load: a single joint, or a force on
+the hand.
 
 In free air the remaining torque is friction. Friction has the sign of the rate, so a joint's friction is half the
 difference between its torques in the two directions, even if the model of its weight is wrong (as in

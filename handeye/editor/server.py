@@ -132,8 +132,8 @@ def make_server() -> ArmServer:
 
 
 def _of_scripts(answer: Callable[[EditedScript, Any], Any]) -> Callable[..., Any]:
-    """Wrap a handler that can answer only for scripts of planned programs. For a text in a system's own language,
-    the answer is empty.
+    """Wrap a handler that works only for scripts in the arm language. For a text in another system's language, the
+    answer is empty.
     """
 
     def answered(server: ArmServer, params: Any) -> Any:

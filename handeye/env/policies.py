@@ -122,8 +122,9 @@ BUILT_IN: Final = {
 
 
 def policy_maker(name: str, environment: str) -> PolicyMaker:
-    """Return the maker of a policy for an environment: a policy included with handeye, or MODULE:NAME in a module on
-    Python's path or in the current folder. Raises InvalidInput if there is no such policy.
+    """Return the maker of the policy called `name` for an environment. The name is that of a policy included with
+    handeye, or it is MODULE:NAME. Such a module is on Python's path or in the current folder. Raises InvalidInput if
+    there is no such policy.
     """
     included = {**BUILT_IN, **job_named(environment).policies}
     if name in included:

@@ -16,7 +16,7 @@ from handeye.core.small_arrays import limited
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Course:
-    """A straight path, and how the hand responds to force along it. Vectors are in W."""
+    """A straight path, and how the hand responds to force while it moves along this path. Vectors are in W."""
 
     compliance: ComplianceModel
     direction: Array  # unit vector, (3,)

@@ -19,7 +19,7 @@ _STANDS: Final = 0.1
 
 @dataclass(slots=True, kw_only=True)
 class ArmDrive(ServoLoop):
-    """The servo loop of an arm that is the only arm under its clock. In the working phase, only this class lets
+    """The servo loop of an arm that shares its clock with no other arm. In the working phase, only this class lets
     time pass.
     """
 

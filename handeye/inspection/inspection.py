@@ -2,8 +2,8 @@
 each step depends.
 
 A step may depend on measurements made during the run: the places of parts that vision located, saved positions and
-differences, and the place that a search has reached. The newest measurements that can be valid at a step are computed
-over all paths through the graph, including loops and error edges.
+differences, and the place that a search has reached. For each step, handeye follows all paths through the graph that
+lead to the step, including loops and error edges, and finds the newest measurements that can be valid there.
 """
 
 from typing import Final, Literal, get_args

@@ -124,9 +124,9 @@ class Weakness:
 def weakness(
     arm: ArmModel, q: Array, wanted: Array, *, turning: bool = False, weight: float = 0.0
 ) -> Weakness | None:
-    """Find the joint that keeps the hand from exerting a force (N, in W) at one of the configurations, shape (N, n).
-    Returns None if the hand can exert the force at all configurations. If `turning` is True, `wanted` is a moment, in
-    N m. `weight` (N) is the weight of a load in the hand.
+    """Find the joint that is too weak to let the hand exert the force `wanted` (N, in W) at each of the configurations
+    `q`, shape (N, n). Returns None if the hand can exert the force at all configurations. If `turning` is True,
+    `wanted` is a moment, in N m. `weight` (N) is the weight of a load in the hand.
     """
     size = float(np.linalg.norm(wanted))
     if size == 0.0:
@@ -184,7 +184,9 @@ class Checks:
         self._obstacles = Obstacles(self.program)
 
     def forget(self) -> None:
-        """Forget the state of the hand, because at a step reached by a jump the hand may hold another object."""
+        """Forget the state of the hand. This is needed at a step that only a jump reaches, because the hand may then
+        hold another object.
+        """
         self._grip, self._load = GraspState(self.program, self.arm.hand), None
 
     def follow(self, number: int, step: Step) -> None:

@@ -17,9 +17,9 @@ class Phase(Record, frozen=True, kw_only=True):
 
 
 class Claim(Record, frozen=True, kw_only=True):
-    """A statement about the work that some steps of a program, in the order of its phases, show to be true. If
-    `at_first` is True, the claim holds when the program begins. In this case, the program must show the claim only
-    after a step that undoes the claim.
+    """A statement about the work. Some steps of a program show that the statement is true. The claim has phases, and
+    the steps must show the phases in this order. If `at_first` is True, the claim holds when the program begins. In
+    this case, the program must show the claim only after a step that undoes the claim.
     """
 
     says: str  # clause, such as `the fingers feel the head`

@@ -418,7 +418,7 @@ class Runner:
             self._thin()
 
     def _thin(self) -> None:
-        """Drop the oldest state of the history that is not the beginning of a stage."""
+        """Drop a state from the history: the oldest one at which no stage begins."""
         for index in range(1, len(self.history) - RECENT):
             before, here = self.history[index - 1 : index + 1]
             interfered = before.position == here.position  # a person changed the state between two steps

@@ -81,7 +81,7 @@ class Words(Record, frozen=True, kw_only=True):
 
 
 class AnyTask(ABC):
-    """A task for any kind of system, which provides worlds, a scene and a referee."""
+    """A task for any kind of system. The task provides worlds, a scene and a referee."""
 
     name: str
     words: Words

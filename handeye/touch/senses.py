@@ -86,8 +86,8 @@ def followed(gap: float, goal: float) -> bool:
 
 
 def leapt(change: float, reach: float) -> bool:
-    """Return True if the gap changed by more than `reach` (m), the distance that the motor can drive the fingers in
-    the time of the change.
+    """Return True if the gap changed by more than `reach` (m). `reach` is the distance by which the motor can change
+    the gap in this time.
     """
     return abs(change) > reach + GAP_NOISE
 

@@ -113,7 +113,9 @@ CHANNELS: Final = (
 
 @cache
 def channels_of(system: str) -> tuple[Channel, ...]:
-    """Return the channels for runs of a system. A system may emit events of its own kinds."""
+    """Return the channels for runs of a system. The schema of the event channel includes the system's own kinds of
+    events.
+    """
     own = _schema(event_type(system))
     return tuple(replace(each, schema=own) if each.topic == EVENTS else each for each in CHANNELS)
 

@@ -15,8 +15,8 @@ from handeye.trace.trace import Trace
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Repetition:
-    """The first differences between two traces, each described in a sentence. If both sentences are None, the traces
-    are identical, byte for byte.
+    """The first difference between two traces that is more than rounding, and the first that is only rounding, each
+    described in a sentence. If there is neither, the traces are identical, byte for byte.
     """
 
     parts: str | None = None  # the first difference that is more than rounding

@@ -42,8 +42,8 @@ _CRC: Final = struct.Struct("<I")
 
 
 class McapEncoder:
-    """Encodes an MCAP file in pieces. Together, the pieces form the file if they are written one after another. The
-    results of `part` do not belong to the finished file: when a chunk has ended, the whole chunk replaces them.
+    """Encodes an MCAP file in pieces. The file consists of the pieces, written one after another. The results of
+    `part` do not belong to the finished file: when a chunk has ended, the whole chunk replaces them.
     """
 
     def __init__(self) -> None:

@@ -42,7 +42,7 @@ class GrowingFile:
     """
 
     def __init__(self, file: Path) -> None:
-        """Create the file, or empty it."""
+        """Create the file, or empty an existing file."""
         self.file = file
         self.broken = False  # something could not be written; the file ends there
         self.released = False

@@ -137,7 +137,7 @@ class _StageSpan:
 
 
 class Replay:
-    """A recorded run, prepared so that its state at any time can be looked up. The run has at least one servo
+    """A recorded run, prepared so that its state at any time can be looked up. The run must have at least one servo
     period.
     """
 

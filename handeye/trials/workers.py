@@ -205,8 +205,8 @@ def _serve(there: Connection, limit_s: float | None) -> None:
 
 @contextmanager
 def _limited(limit_s: float | None) -> Iterator[None]:
-    """Within this context, let the operating system end this process when it has used `limit_s` more seconds of CPU
-    time.
+    """Within this context, let the operating system end this process after the process has used `limit_s` more seconds
+    of CPU time.
     """
     if limit_s is None or not hasattr(signal, "setitimer"):  # as on Windows
         yield

@@ -7,8 +7,8 @@ fixed position.
 
 There are two branches: with and without a flipped wrist. Where the first and last wrist axes are in line, only the sum
 of the two joint angles matters. The first wrist joint then keeps its angle if the last wrist joint can reach the angle
-that completes this sum. In this configuration the hand can still move in any direction, and turn about the common
-line.
+that completes this sum. In this configuration the hand can still move in any direction, and turn about the line of
+these two axes.
 """
 
 import math

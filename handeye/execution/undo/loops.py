@@ -7,8 +7,8 @@ the place where it was put down. Every screw that was driven in was backed out. 
 place do not meet the conditions and are reversed step by step.
 
 A touch is a motion of an empty hand that ended on contact, together with the motion that left the object. If a touch
-were reversed step by step, the hand would touch the object a second time. If the object has been pushed after the
-touch, a finger that had moved to the side of the object would now descend on the object's edge.
+were reversed step by step, the hand would touch the object a second time. The object may have been pushed after the
+touch. A finger that moved past the side of the object before would then descend on the object's edge.
 """
 
 from collections.abc import Callable, Iterator, Sequence

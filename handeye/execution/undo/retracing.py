@@ -103,8 +103,8 @@ def retracing(
     """Make the reverse path from the present position of the arm and the fingers. If `slowly` is True, the motion
     is at most as fast as guarded motions.
 
-    If `feeling` is True, the fingers close at most at the speed of centring. Faster fingers would push a loose
-    object ahead, and the switches of the fingers would usually be read as open.
+    If `feeling` is True, the fingers close at most at the speed of centring. Faster fingers would push a loose object
+    ahead of them, and the switches of the fingers would usually not report the contact.
     """
     rows = np.column_stack([way.q, way.gap])[::-1]
     here = np.append(q, gap)

@@ -201,10 +201,10 @@ def _let_go(run: ExecutionContext, done: ExecutedStep) -> UndoFailure | None:
     """Reverse a grasp: open the fingers to the earlier gap. If the fingers held an object before the step, they grip
     this object again as firmly as before.
 
-    Before opening, the fingers must hold the object that they grasped: the gap must be the same as in the grasp or, if
-    the reversal has grasped the object again, as in that later grasp. A carried object may straighten between the
-    fingers: in the world of seed 1, a base that straightened changed the gap by 1.1 mm. A change of more than twice
-    this amount means another object, or no object.
+    Before opening, the fingers must hold the object that they grasped, so the gap must be the same as in that grasp.
+    If the reversal has grasped the object again, the gap must be the same as in the later grasp. A carried object may
+    straighten between the fingers: in the world of seed 1, a base that straightened changed the gap by 1.1 mm. A
+    change of more than twice this amount means another object, or no object.
     """
     kept = done.gap[1]
     held = kept if run.state.held is None else run.state.held

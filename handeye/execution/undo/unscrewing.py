@@ -104,8 +104,8 @@ def unscrew(run: ExecutionContext, done: ExecutedStep, way: RecordedPath) -> tup
 
 
 def lower(run: ExecutionContext, force: float) -> Outcome:
-    """Lower the hand a little, yielding sideways, until a force (N) supports it. If the hand finds no support, the
-    outcome contains no trip of a guard.
+    """Lower the hand a little, yielding sideways, until a force (N) supports it. If the hand finds no support, `trip`
+    of the outcome is None.
     """
     course = replace(_course(run), distance=LOWER, speed=LOWER, force=None)
     return run.drive.comply(course, Resistance(limit=force))

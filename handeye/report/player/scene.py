@@ -219,8 +219,9 @@ def _pieces(model: Any, palette: Palette, names: Names, body: int) -> list[Piece
 
 
 def _small_first(pieces: Sequence[Piece]) -> list[Piece]:
-    """Return the pieces sorted by name, with large pieces last, because floor and walls are behind all other
-    pieces."""
+    """Return the pieces in the order of their size, the smallest first, so that floor and walls come last. Pieces with
+    the same name stay together.
+    """
     sizes = {piece.name: 0.0 for piece in pieces}
     for piece in pieces:
         sizes[piece.name] = max(sizes[piece.name], piece.size)

@@ -91,7 +91,9 @@ def stage_times(rows: Sequence[Row]) -> Iterator[StageTime]:
 
 
 def search_places(rows: Sequence[Row]) -> Iterator[SearchPlaces]:
-    """For each position around which the program searched, yield how many places the searches tried."""
+    """For each position around which programs searched, yield statistics on the number of places that the searches
+    tried.
+    """
     ends = [end for row in rows for end in row.searches]
     for at in dict.fromkeys(end.at for end in ends):
         here = [end for end in ends if end.at == at]

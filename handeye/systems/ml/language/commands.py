@@ -145,8 +145,7 @@ _ROWS: Final[dict[Category, tuple[tuple[str, str, str, str], ...]]] = {
     ),
     "data": (
         ("POINT", "", (
-            "A place for the positions of 12 motors. DEFPOINT and JOY fill this place. When POINT is executed, it "
-            "does nothing."
+            "Holds the positions of 12 motors, which DEFPOINT or JOY writes. When POINT is executed, it does nothing."
         ), "5 POINT"),
     ),
     "arithmetic": (

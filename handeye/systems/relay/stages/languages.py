@@ -98,7 +98,9 @@ class TimedProgram(Record, frozen=True, kw_only=True):
 
 
 def programs(legs: Iterable[StageLeg]) -> dict[str, TimedProgram]:
-    """Plan the careful program and the programs of some legs, by file. Raises InvalidInput if a program has errors."""
+    """Plan the careful program (`CAREFUL`) and the programs of the given legs. The keys of the result are the names of
+    the program files. Raises InvalidInput if a program has errors.
+    """
     found = {}
     for file in dict.fromkeys([CAREFUL, *(leg.file for leg in legs)]):
         entry, timer = entry_of_file(file)[0], HostTimer()

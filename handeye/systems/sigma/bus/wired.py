@@ -382,7 +382,7 @@ class WiredBus(MicrobusPort):
                 self._say(InterruptLine(at=at, level=level))
 
     def _show(self, number: int, node: Microcomputer) -> None:
-        """Pass the pulses of a motor, or the thresholds of a wrist, to the machine."""
+        """Pass the pulses of a motor, or the force thresholds of a wrist, to the machine."""
         if isinstance(node.device, Motor):
             self.plant.driven(number, node.device)
         elif isinstance(node.device, Force):

@@ -64,7 +64,7 @@ class _SeenBus(MicrobusPort):
                 self._aborts[number] = status
 
     def report(self, told: ToldHeight) -> None:
-        """Report the height of a piece with the next action."""
+        """Let the next action report the height of a piece."""
         self._next |= {
             "report": 1.0, "report.height": told.height, "report.at": told.x, "report.line": float(told.line),
         }  # fmt: skip

@@ -1,5 +1,5 @@
-"""The assembly line as a task: the referee checks that the pieces counted by the program are finished and withdrawn
-by the belt, and that no arms have touched each other.
+"""The assembly line as a task. The referee checks three facts: every piece is finished and was withdrawn by the belt;
+the program counted the pieces correctly; and no arms have touched each other.
 """
 
 from __future__ import annotations

@@ -1,4 +1,6 @@
-"""The witness of the assembly line: the pieces that the program counts, and how long arms touched."""
+"""The witness of the assembly line. It records the pieces that the program counts, and how long the arms touched each
+other.
+"""
 
 import re
 from typing import Final

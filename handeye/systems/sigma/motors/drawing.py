@@ -87,7 +87,7 @@ def _panel(
 
 
 def _round_values(least: float, most: float) -> list[float]:
-    """Return about six round numbers for an axis."""
+    """Return about six round numbers for an axis of the diagram."""
     span = most - least
     step = next(d * 10.0**p for p in range(-6, 9) for d in (1, 2, 5) if d * 10.0**p * 6 >= span)
     first = int(np.ceil(least / step))

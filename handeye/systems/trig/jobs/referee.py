@@ -73,8 +73,8 @@ def judge_dropped(X: Pose, inside: tuple[float, float], place: Array, other: Pos
 
 
 def judge_hand(truth: Array, place: Array, what: str) -> Finding:
-    """Check that the true position of the hand is at a place. The position and the place have shape (6,), in m and
-    rad.
+    """Check that the hand is at a place. `truth` is the true position of the hand. Position and place have shape (6,),
+    in m and rad.
     """
     off = float(np.linalg.norm(truth[:3] - place[:3]))
     return at_most(off * _MM, HAND, "mm", f"distance of the hand from the place where the program {what}")

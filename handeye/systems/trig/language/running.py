@@ -55,7 +55,7 @@ def _way_back(program: TrigProgram, done: RecordedStep, arm: TrigArm, halted: Ha
 
 
 def _took_up(program: TrigProgram) -> bool:
-    """Return True if the hand executed a GRASP between the last two moves."""
+    """Return True if a grasp was the last action of the hand before the last move."""
     for done in islice(reversed(program.trail), 1, None):
         node = program.graph.nodes.get(done.node)
         if node is None or node.type in ("normal", "guarded", "ungrasp"):
