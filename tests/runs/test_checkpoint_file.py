@@ -134,7 +134,7 @@ def test_a_head_that_does_not_match_what_is_below_it_is_refused(
 
 def test_what_would_fill_the_memory_is_refused(data: bytes, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(checkpoint_file, "LARGEST", 1000)
-    with pytest.raises(InvalidInput, match="the saved state is too large"):
+    with pytest.raises(InvalidInput, match="the saved state is incomplete or too large"):
         decode(data, "it")
 
 
@@ -167,7 +167,7 @@ def test_only_figures_and_pictures_are_taken_for_arrays(data: bytes, dtype: str)
         (("cell", "mechanisms", "clamping"), {"clamped": "yes"}, "not a state of this work cell"),
         (("cell", "mechanisms"), {}, "other devices or mechanisms"),
         (("cell", "physics"), ["<f8", [2], b"\0" * 16], "another scene"),
-        (("cell", "figures"), {}, "values that change"),
+        (("cell", "figures"), {}, "a scene with other changing quantities"),
         (("cell", "noise"), "{}", "not a state of this work cell"),
         (("cell", "noise"), "[" * 5000, "not a state of this work cell"),
         (("cell", "mechanisms", "camera", "lens"), 0.5, "the turret has no"),

@@ -518,7 +518,7 @@ def _parts() -> Iterator[tuple[str, str, Planting]]:
     yield "crank pin broken short", "rotor_place", figure("geom_size", "crank", (5 * MM, 4 * MM, 0.0))
     yield "crank pin gone", "as_drawn", figure("geom_conaffinity", "crank", 0)
     yield "gasket torn off at its narrow end", "as_drawn", figure("geom_size", "gasket_lands", 1e-6, 4)
-    yield "gasket torn at hole 3", "as_drawn", moved_on("geom_pos", "gasket", (0.0, 0.0, 0.1), 20)
+    yield "gasket torn at hole 3", "as_drawn", moved_on("geom_pos", "gasket_bores", (0.0, 0.0, 0.1), 20)
     yield "land missing at hole 4", "as_drawn", figure("geom_contype", "gasket_lands", 0, 3)
     yield "gasket without its web", "as_drawn", figure("geom_size", "gasket_web", (1e-6, 1e-6, 1e-6))
     yield "gasket of lead", "as_drawn", figure("body_mass", "gasket", 0.5)

@@ -73,9 +73,10 @@ def yaw_of(spec: mujoco.MjSpec, part: str) -> float:
 def thicken(spec: mujoco.MjSpec, factor: float) -> None:
     """Multiply the gasket's thickness by a factor."""
     gasket = spec.body("gasket")
-    for mesh in {geom.meshname for geom in gasket.geoms if geom.meshname}:
+    shapes = [*gasket.geoms, *spec.body("gasket_bores").geoms]
+    for mesh in {geom.meshname for geom in shapes if geom.meshname}:
         spec.mesh(mesh).scale[2] *= factor
-    for geom in gasket.geoms:
+    for geom in shapes:
         geom.pos[2] *= factor
         if not geom.meshname:
             geom.size[2] *= factor
