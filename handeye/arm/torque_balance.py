@@ -16,6 +16,7 @@ from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
+from numpy.typing import NDArray
 
 from handeye.arm.converters import sliding, torque_step
 from handeye.arm.dynamics import link_weights
@@ -82,7 +83,9 @@ def balanced(
     return belief, Unbalanced(joints=tuple(joints.tolist()), factors=tuple(factors.tolist()))
 
 
-def weight_difference(arm: ArmModel, postures: Array, sliding: Array, belief: Array | None) -> Array:
+def weight_difference(
+    arm: ArmModel, postures: Array, sliding: NDArray[np.bool_], belief: Array | None
+) -> Array:
     """Return how far errors of masses, mass centres and drives may separate the mean torques of a joint in its two
     directions: half the greatest plausible difference, shape (n,), for a joint that slid in both directions.
 
