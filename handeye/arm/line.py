@@ -138,7 +138,7 @@ def jog(arm: ArmModel, q: Array, joint: int, goal: float, *, speed: float) -> Sa
     """Plan a smooth motion of one joint, given by its index from 0, to a goal (rad or m). Returns the set-points of
     the motion, or the reason why the motion is impossible.
 
-    `speed` is a fraction of the joint's rate limit; the acceleration is scaled by its square.
+    `speed` is a fraction of the joint's rate limit. The acceleration limit is multiplied by the square of `speed`.
     """
     if arm.joints[joint].name in arm.held:
         return IKResult(reason=HeldJoint(joint, arm.held[arm.joints[joint].name]))

@@ -85,8 +85,8 @@ class Effects:
 
 
 def least_shown(graph: OutcomeGraph, effects: list[Effects]) -> list[int]:
-    """For each claim, return the least number of its phases that a path to the end has shown. The search assumes that
-    every branch is possible: it does not follow counters. UNREACHED means that no path leads to the end of the
+    """For each claim, return the least number of its phases that a path to the end has shown. The search ignores the
+    values of counters and assumes that every branch is possible. UNREACHED means that no path leads to the end of the
     program.
     """
     by_edge: dict[EdgeKey, list[tuple[int, Table]]] = {}
