@@ -165,8 +165,8 @@ class Bench(Clock, Mechanism[BenchTime]):
         )
 
     def _pass(self, most: int) -> None:
-        """Let physics steps pass, at most `most` of them. If all bodies sleep, let all these steps pass at once. If
-        not, let only `_stretch` steps pass.
+        """Advance by at most `most` physics steps. If all bodies sleep, skip all these steps at once. If a body is
+        awake, simulate at most `_stretch` steps.
         """
         steps = min(most, self._stretch)
         for part in self._parts:
