@@ -1,4 +1,4 @@
-"""How far a claim is shown at each node: the number of its phases that every path to the node has shown."""
+"""How far a claim is shown at each node: the number of phases of the claim that are shown on every path to the node."""
 
 from dataclasses import dataclass, field
 from heapq import heappop, heappush

@@ -158,7 +158,7 @@ def at_least(gap: float, thickness: float) -> bool:
 
 
 def at_most(gap: float, thickness: float) -> bool:
-    """Return True if the fingers hold no object thicker than this (m)."""
+    """Return True if the fingers hold no object that is thicker than `thickness` (m)."""
     return gap <= thickness
 
 

@@ -31,7 +31,7 @@ _RAYS: Final = np.column_stack([np.cos(_ANGLES), np.sin(_ANGLES)])
 
 
 def locate_shaded(scan: Scan, view: View, part: Part) -> tuple[float, float, float] | None:
-    """Find the two large holes of a part in a picture of the region where the part may be. Returns the pose of the
+    """Find the two large holes of a part. The picture shows the region where the part may be. Returns the pose of the
     part (x, y in m, yaw in rad), or None if no such holes are visible. The part must have a region and two holes.
     """
     assert part.region is not None
