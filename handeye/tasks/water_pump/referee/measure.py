@@ -80,8 +80,8 @@ def corner_height(measured: SettledState, layer: str, holes: int) -> float:
 
 
 def pins_away(measured: SettledState) -> float:
-    """Return the greatest distance of the middle of a pin's shoulder from the mouth of its hole in the base (m). Any
-    pin may stand in any of the holes for pins, but no two pins in the same hole.
+    """Return the greatest distance of the middle of a pin's shoulder from the mouth of its hole in the base (m). A pin
+    may stand in any of the holes for pins, but each hole takes only one pin.
     """
     mouths = [
         measured.data.site(f"base_hole{int(hole)}").xpos
