@@ -40,8 +40,8 @@ class InsertionTask(Task):
 
     @abstractmethod
     def caught(self, clearance: float, chamfer: float) -> float:
-        """Return the greatest position error (m) of a hole with this clearance (m) and chamfer (m) at which the
-        pin still enters the hole.
+        """Return the greatest position error (m) at which the pin still enters a hole. The hole has this clearance (m)
+        and chamfer (m).
         """
 
     @abstractmethod

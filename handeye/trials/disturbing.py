@@ -1,5 +1,5 @@
-"""Trials in which the cell is disturbed before the arm undoes its work. The trials show whether a guard stops the arm
-before the arm does harm.
+"""Trials of undoing in a disturbed cell. The arm builds the product, the cell is disturbed, and the arm then undoes
+its work. The trials show whether a guard stops the arm before the arm does harm.
 """
 
 from collections.abc import Mapping, Sequence

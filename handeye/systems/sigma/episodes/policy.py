@@ -43,8 +43,9 @@ class ProgramPolicy(Policy):
 
 
 class _SeenBus(MicrobusPort):
-    """The bus as an episode offers it. The bus collects the commands for one step of the episode, and makes them one
-    action."""
+    """A microbus that leads to an episode. The bus collects the commands for one step of the episode, and combines
+    them into one action.
+    """
 
     def __init__(self, episode: Episode) -> None:
         self._episode = episode
