@@ -116,7 +116,7 @@ def cast(
 
 
 def _edges(geom: NDArray[np.int32], luminance: Array) -> NDArray[np.bool_]:
-    """Return an array in the shape of the picture. The array is True where the picture changes: at both points of each
+    """Return a mask in the shape of the picture. The mask is True at the edges in the picture: at both points of each
     pair of neighbours whose geoms or luminances differ.
     """
     rough = np.zeros(geom.shape, dtype=bool)

@@ -72,8 +72,8 @@ def sound_run(folder: Path, of: Setup, world: WorldSpec, every: int | None = EVE
     InvalidInput if the folder belongs to another setup.
 
     Args:
-        every: steps from one checkpoint to the next. The state between two stages is always stored; if None, no other
-            states are stored.
+        every: steps from one checkpoint to the next. The state between two stages is always stored; if `every` is
+            None, no other states are stored.
     """
     store = CheckpointStore(folder / f"{world.seed}-{world.level}")
     setup = msgspec.structs.replace(of, world=world)

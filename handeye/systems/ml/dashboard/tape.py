@@ -61,7 +61,9 @@ def changes_of(tape: Tape) -> Iterator[Changes]:
 
 
 def _compressed(changes: Changes) -> bytes:
-    """Compress changes: sort them by words, and write only the differences, which compress well."""
+    """Compress changes. The changes are sorted by word, and each is stored as its difference from the previous change.
+    Such differences compress well.
+    """
     ordered = changes[np.argsort(changes[:, 1], kind="stable")]
     return zlib.compress(np.diff(ordered, axis=0, prepend=0).T.astype("<i4").tobytes())
 
