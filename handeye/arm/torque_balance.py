@@ -130,8 +130,8 @@ def _model(arm: ArmModel, postures: Array) -> tuple[Array, Array]:
 
 
 def _learnt(belief: Array, H: Array, weight: Array, noise: Array, spare: Array | None = None) -> Array:
-    """Update an estimate with the joint torques that the model does not explain (zero by default). Each torque has a
-    noise variance.
+    """Update an estimate with the joint torques `spare`, which the model does not explain; by default, these torques
+    are zero. `noise` is the variance of each torque.
     """
     mean, spread = belief[:, 0], belief[:, 1:]
     for j, h in enumerate(H):

@@ -367,7 +367,7 @@ _POLICY: Final = {
 
 
 def allow(model: mujoco.MjModel, tree: int, *, allowed: bool = True) -> None:
-    """Allow a tree of bodies with motors to sleep, or keep it awake."""
+    """Allow the simulator to put a tree of bodies to sleep, or keep the tree awake. The tree has motors."""
     model.tree_sleep_policy[tree] = _POLICY[allowed]
 
 
