@@ -163,7 +163,7 @@ class Servo:
         If `estimate` is True, the force on the hand is estimated at the end of the period: for `guards` or, if
         `taring` is True, for the tare. `friction` are the torques of known friction, which are compensated, so that
         friction is not sensed as force. The torques `dither` are added to those of the servo. Returns the torque
-        residual, shape (n,), beyond weight, inertia and load; it includes friction.
+        residual, shape (n,): the torques less those for weight, inertia and load. The residual includes friction.
         """
         q_was, before = self.state.here, self.sensed
         load = here.J[2] * self.state.load

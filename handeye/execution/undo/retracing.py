@@ -142,8 +142,8 @@ arm is not exact.
 
 
 def stands(run: ExecutionContext, way: RecordedPath, grasps: Callable[[ExecutedStep], bool]) -> bool:
-    """Return True if the resistance shows that the held object stands on a surface: the path leads to the place where
-    the object was grasped, and the hand is nearly at this place.
+    """Return True if the resistance shows that the held object stands on a surface. This is the case if the path leads
+    to the place where the object was grasped, and the hand is nearly at this place.
 
     `grasps` returns True if a step grasps an object, or grips it more firmly.
     """

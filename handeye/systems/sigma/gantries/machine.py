@@ -121,7 +121,7 @@ class Gantries(Plant[GantryMemory]):
         """Switch the gantries on.
 
         Args:
-            compensated: correct the readings of the wrists by the accelerometers, so that the force that
+            compensated: use the accelerometers to correct the readings of the wrists, so that the force that
                 accelerates a hand is not counted.
         """
         self.bench, self.rig, self._n = Bench(spec.compile()), rig, len(rig.axes)
