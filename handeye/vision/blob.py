@@ -195,8 +195,9 @@ class _Side:
     def _turned_window(
         self, u: Array, v: Array, offset: Array
     ) -> tuple[list[float], list[float], list[float]]:
-        """Return the sides of the window in the coordinates of this side of the box. The three lists have, for each
-        side of the window, the increment per line outwards, the increment per point along the line, and the offset.
+        """Return the sides of the window in the coordinates of this side of the box, as three lists with one number
+        for each side of the window. The first list has the increments per line outwards, the second the increments per
+        point along the line, and the third the offsets.
         """
         outwards, along = (u, v) if self.upright else (v, u)
         if self.backwards:

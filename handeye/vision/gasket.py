@@ -167,8 +167,9 @@ class _BaseSteps(NamedTuple):
 
 
 class _Steps(NamedTuple):
-    """Thresholds: the least changes of intensity across a border, in the difference and in the picture without the
-    gasket; and the intensity of the face.
+    """Thresholds of intensity. `after` is the least change across a border in the difference between the two pictures.
+    `before` is the least change across a border in the picture without the gasket. `face` is the intensity of the
+    face.
     """
 
     after: float

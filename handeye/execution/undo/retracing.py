@@ -2,7 +2,7 @@
 path.
 
 The arm is stopped by force that has built up in any direction since the reversal began, and by early contact of
-closing fingers. Closing fingers meet in the middle of the hand. If an object is beside the middle, one finger touches
+closing fingers. Closing fingers meet in the middle of the hand. If an object is not in the middle, one finger touches
 the object first, while the gap is still too wide. If the fingers closed on such an object, they would push the object
 to the middle, or push the arm, and the final gap would look right.
 """

@@ -85,7 +85,7 @@ def subset_simulation(
 
     Args:
         first: worlds drawn independently; each further level has as many worlds.
-        stream: returns the random number generator of a level, given by its number.
+        stream: function that takes the number of a level and returns the level's random number generator.
     """
     chains = [[_State(*each)] for each in zip(first, margins(0, first), strict=True)]
     level = _level(chains, Level(number=0, runs=len(first), threshold=0, share=0, failed=0, variation=0))
