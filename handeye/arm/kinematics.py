@@ -70,9 +70,9 @@ def centripetal(
     """Compute the accelerations of points, shape (..., m, 3), and of the links to which these points belong. The joint
     rates are `qd`; the joint accelerations are zero.
 
-    Point k is fixed in link `links[k]`, counted from 0; `linear`, shape (..., m, n, 3), are the velocities of the
-    points per joint rate, zero for joints that do not move the link. Returns linear accelerations and angular
-    accelerations, each of shape (..., m, 3).
+    Point k is fixed in link `links[k]`, counted from 0. `linear`, shape (..., m, n, 3), has the velocity of each point
+    per unit rate of each joint. This velocity is zero for the joints that do not move the point's link. Returns linear
+    accelerations and angular accelerations, each of shape (..., m, 3).
     """
     k = constants(arm)
     prismatic = k.prismatic[:, None]
