@@ -134,7 +134,7 @@ def _aligned(one: Vector3, other: Vector3) -> bool:
 
 class Contact(Record, frozen=True, kw_only=True):
     """A straight motion that a contact has ended: where it began, its direction, and the force of its guard (N). If
-    `torque` (N m) is given, not a force but this torque of the screwdriver has ended the motion.
+    `torque` (N m) is given, this torque of the screwdriver has ended the motion, not a force.
     """
 
     where: Region
