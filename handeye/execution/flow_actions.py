@@ -70,7 +70,7 @@ def search(run: ExecutionContext, operation: Search) -> None:
 
 
 def advance(run: ExecutionContext, _: Advance) -> Fault | None:
-    """Advance to the next place of the search, for the next motion of the search."""
+    """Advance the search to its next place. The next motion of the search goes there."""
     state = run.state.search
     if state is None:
         return Fault(number=errors.SEARCH_EXHAUSTED, cause=NoSearch())

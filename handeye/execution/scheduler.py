@@ -101,8 +101,8 @@ class Agenda(MutableRecord, Generic[Time], kw_only=True):
         return None
 
     def sleep(self, task: str, duration: Time) -> None:
-        """Make a task due again: its next time is `duration` after the time at which it was last due, even if it
-        continued later than that time.
+        """Make a task due again: `duration` after the time at which the task was last due. This applies even if the
+        task was executed late.
         """
         time, again = self.due[task]
         if duration < 0:

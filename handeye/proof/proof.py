@@ -1,5 +1,5 @@
-"""Proves the obligations of a task for a program. If an obligation cannot be proved, the proof finds a path that
-avoids the obligation.
+"""Proves that a program meets the obligations of a task. If an obligation cannot be proved, the proof finds a path
+through the program that avoids the obligation.
 """
 
 from collections.abc import Iterable, Sequence
