@@ -129,7 +129,9 @@ def _least(left: Mapping[str, float], known: Mapping[str, float]) -> Margin:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RareTrial(Trial):
-    """Runs a plan in the world of a case, and records how far the program was from each failure (its reserves)."""
+    """Runs a plan in the world of a case, and records the reserves of the program: how far the program was from each
+    failure.
+    """
 
     row: ClassVar[type[Row]] = RareRow
 

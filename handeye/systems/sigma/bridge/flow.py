@@ -1,5 +1,5 @@
-"""Finds the places, limits and speeds that hold at each line of a single task, no matter on which path the task
-reaches the line.
+"""Finds, for each line of a single task, the places, limits and speeds that are the same on every path by which the
+task can reach the line.
 """
 
 from collections.abc import Callable, Mapping, Sequence

@@ -129,7 +129,7 @@ class Machine(IdealMachine):
             self._swing(number, jump * math.sqrt(_WRIST * _HAND_KG) * memory.sense)
 
     def _ended(self, number: int, motor: Motor, train: Any, began: int, pulses: int, sense: int) -> None:
-        """Handle the end of a pulse train: subtract the steps that the rotor has lost from the position of the motor."""
+        """Handle the end of a pulse train: subtract the lost steps from the position of the motor."""
         del self._trains[number]
         made, most, every = abs(motor.memory.pulses - pulses), self._most.pop(number), self._every(number)
         lost = made // every if every else 0
