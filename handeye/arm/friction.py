@@ -44,8 +44,8 @@ def unknown_friction(arm: ArmModel, friction: Array) -> Array:
 
 
 def felt_friction(arm: ArmModel, q: Array, friction: Array) -> Array:
-    """Return the wrenches that are sensed because of the Coulomb friction (N m, N) of each joint: one column for
-    each joint, shape (6, n), in N and N m, in W.
+    """Return the wrench (N and N m, in W) that the hand appears to sense because of the friction of each joint, as
+    shape (6, n). Each column belongs to one joint. `friction` is the Coulomb friction of the joints (N m, or N).
     """
     return external_wrench(jacobian(arm, q), np.diag(friction))
 
