@@ -296,8 +296,8 @@ class PhysicsStepper:
         allowed: Callable[[], bool],
         at_the_end: Callable[[], bool] = lambda: True,
     ) -> bool:
-        """Make steps that are longer than a short step by the factor `times`, and that together cover the time of
-        `steps` short steps. If the contacts of a step are not allowed, undo all steps and return False.
+        """Replace `steps` short steps by fewer long steps. A long step is `times` times as long as a short step. If
+        the contacts of a step are not allowed, undo all steps and return False.
         """
         model, data, began = self._model, self._data, self._data.time
         for kept, values in zip(self._kept, self._moves, strict=True):
@@ -385,7 +385,7 @@ def wake_all(data: mujoco.MjData, dofs: NDArray[np.int_]) -> None:
 def let_rest(model: mujoco.MjModel, data: mujoco.MjData) -> None:
     """Let each tree of bodies without any velocity fall asleep after one step, if it is still at rest then.
 
-    MuJoCo sets the velocities of a sleeping tree to zero, so a tree without any velocity has slept before.
+    MuJoCo sets the velocities of a sleeping tree to zero, so a tree without any velocity was asleep until now.
     """
     resting = np.ones(model.ntree, dtype=bool)
     resting[model.dof_treeid[data.qvel != 0.0]] = False

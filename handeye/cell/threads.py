@@ -8,8 +8,8 @@ out of sight, and the carrier takes its place. A screw that enters at an angle c
 angle, and jams before it is seated. Once the carrier has taken the place of the screw, the physics computes all that
 follows: the shank touches the holes of the parts above, the head touches the part beneath, and friction grows with the
 clamp force. The motor turns the carrier against the body of the driver, so the bodies that hold the driver and the
-tapped part carry the torque. A screw that is turned back to the place where its thread began is loose again. The
-limits of the model are in scenes/water_pump/README.md.
+tapped part carry the torque. A screw that is turned back to the place where its thread began is loose again.
+scenes/water_pump/README.md lists the simplifications of this model.
 
 In a scene with screws, the screws are numbered from 0, and the scene uses the following names. Each screw is a free
 body `screw0`, whose origin is the point of the screw, with a geom `screw_head0` and a site `park0` out of sight. Each

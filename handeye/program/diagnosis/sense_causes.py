@@ -77,8 +77,8 @@ class GapStill(CauseRecord, frozen=True, kw_only=True):
 
 
 class ForceInAir(CauseRecord, frozen=True, kw_only=True):
-    """The hand senses a force (N, table axes, before taring) where it should touch nothing. `load` is the declared
-    weight (N).
+    """The hand senses a force (N, table axes, before taring) where it should touch nothing. `load` is the weight (N)
+    that the program has declared for the object in the hand.
     """
 
     force: Vector3
