@@ -337,8 +337,8 @@ class ServoLoop(Servo):
         """Height (m, in W) at which the hand has stopped, computed from its set-point.
 
         At the hand, one step of the converters is up to .05 in, while a set-point has no steps. The arm takes many
-        readings while it moves, and the rounding errors of these readings average out. Two motions that end on the
-        same force therefore end at the same mean height.
+        readings while it moves, and the rounding errors of these readings average out. Therefore, two motions that the
+        same force stops end at the same mean height.
         """
         met = self.state.met
         return float(self.chain.forward(self.state.q)[2, 3] if met is None else met[2])

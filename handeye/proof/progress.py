@@ -85,9 +85,9 @@ class Effects:
 
 
 def least_shown(graph: OutcomeGraph, effects: list[Effects]) -> list[int]:
-    """For each claim, return the least number of its phases that a path to the end has shown. The search ignores the
-    values of counters and assumes that every branch is possible. UNREACHED means that no path leads to the end of the
-    program.
+    """For each claim, count the phases that each path to the end of the program shows, and return the smallest count.
+    The search ignores the values of counters and assumes that every branch is possible. UNREACHED means that no path
+    leads to the end of the program.
     """
     by_edge: dict[EdgeKey, list[tuple[int, Table]]] = {}
     for number, one in enumerate(effects):
