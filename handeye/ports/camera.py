@@ -44,7 +44,7 @@ class TvCamera(ABC):
 
     @abstractmethod
     def lens(self, focal_length: float) -> float:
-        """Turn the turret to the lens with a focal length (m), which must be one of LENSES. Returns the
+        """Turn the turret to the lens with the focal length `focal_length` (m), one of LENSES. Returns the
         duration (s). Raises InvalidInput if there is no such lens.
         """
 

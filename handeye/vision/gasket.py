@@ -79,7 +79,7 @@ class GasketInspection:
 
 
 def difference(before: Picture, after: Picture) -> NDArray[np.float32]:
-    """Return |after - before| at every point of the first picture, after aligning the unchanged parts of the two
+    """Return |after - before| at every point of the first picture, after aligning the areas that are the same in both
     pictures.
     """
     from handeye.vision.alignment import aligned  # imports OpenCV, which is not needed to make plans
@@ -92,9 +92,9 @@ def inspect(
 ) -> GasketInspection:
     """Compare pictures of a part at `pose` (x, y in m, yaw in rad), taken before and after a gasket was laid on it.
 
-    Both pictures must be taken with the same aim and target voltage, and with the arm at the same position,
-    because the shadow of the arm is the greatest disturbance. The second picture is aligned with the first by the
-    parts that have not changed. The part must have two holes.
+    Both pictures must be taken with the same aim and target voltage, and with the arm at the same position, because
+    the shadow of the arm is the greatest disturbance. The second picture is aligned with the first by the areas that
+    are the same in both pictures. The part must have two holes.
     """
     if len(part.holes) < 2:
         raise BadArgument("two holes are needed to inspect a gasket, but the program gives fewer")

@@ -30,8 +30,8 @@ def error_rate(clock: float, commands: int, seed: int = 0, timing: Timing | None
     """Send random commands to receivers that become free at random times. The clock errors are at most the
     fraction `clock`.
 
-    A receiver becomes free at a random time: either during the command, or earlier by at most the duration of a
-    command.
+    A receiver becomes free at a random time, either while the command is sent or before. The earliest time is one
+    command's duration before the command begins.
     """
     timing = timing or Timing()
     wires = Wires(_ANOTHER, timing, ())
