@@ -251,7 +251,7 @@ class RunningPlan(RunningSystem):
         return round(self.time - before, 6)
 
     def _friction(self, seconds: float) -> Iterator[FrictionMeasured]:
-        """Yield the event for a friction measurement that took `seconds`. If no friction was measured, yield nothing."""
+        """Yield the event for a friction measurement that took `seconds`, or nothing if no friction was measured."""
         drive = self.state.drive
         if drive.links is not None:
             joints = ArmNames.of(self.arm).joints
