@@ -124,7 +124,9 @@ class SlideAxes(Axes):
         return self.tool.period
 
     def power(self, on: bool) -> None:
-        """Do nothing: the servo of the arm is a program in the computer, which ends when the brakes are set."""
+        """Do nothing. The servo of the arm is a program in the computer. This program ends when the brakes are set, so
+        there is no power to switch.
+        """
 
     def put(self, goal: Array) -> None:
         z, y, x, self.roll, gap = map(float, goal)

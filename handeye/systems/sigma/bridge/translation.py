@@ -5,8 +5,8 @@ The axes of one arm become table axes: another arm replaces the arm of SUPERSIGM
 the table of this other arm. A MOVE of one axis becomes a straight motion, and so does a MOVE with LINE. Any other MOVE
 of several axes becomes a motion whose path is free. A LIMIT becomes a guard of the motions of its axis. A test of
 FORCE right after a motion becomes a guard of this motion: the motion stops at this force, and the program no longer
-tests the force afterwards. Without a LIMIT there is no guard, because an arm that is not balanced feels several
-newtons even in free motion.
+tests the force afterwards. A motion with neither a LIMIT nor a test of FORCE has no guard, because an arm that is not
+balanced feels several newtons even in free motion.
 """
 
 from collections.abc import Iterator, Sequence
