@@ -27,8 +27,8 @@ class Rate(Record, frozen=True, kw_only=True):
 
 
 def error_rate(clock: float, commands: int, seed: int = 0, timing: Timing | None = None) -> Rate:
-    """Send random commands to receivers that become free at random times. The clock errors are at most the
-    fraction `clock`.
+    """Send random commands to receivers that become free at random times. Each receiver's clock runs fast or slow by a
+    random fraction, at most `clock`.
 
     A receiver becomes free at a random time, either while the command is sent or before. The earliest time is one
     command's duration before the command begins.
