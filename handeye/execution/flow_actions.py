@@ -1,5 +1,5 @@
-"""Actions that do not move the arm. They test for errors, count, control searches, save differences, define positions,
-declare the load, and set the screwdriver.
+"""Actions that do not move the arm. These actions test for errors, change counters, control searches, save
+differences, define positions, declare the load, and set the screwdriver.
 """
 
 from typing import Final
