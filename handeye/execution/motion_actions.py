@@ -250,7 +250,7 @@ def _fast(drive: DriveState) -> MotorFast | None:
 
 
 def _turned_hard(run: ExecutionContext, guards: Guards) -> Fault | None:
-    """Return the error if a screw that was driven to its torque took too much torque on the way. The thread of such a
+    """Return the error if a screw was too hard to turn before it reached the torque of its guard. The thread of such a
     screw uses up torque that should clamp the parts.
     """
     asked = [each.torque for each in guards if isinstance(each, Torque)]
