@@ -2,8 +2,8 @@
 
 The servo uses only the device interfaces: positions come from the potentiometers, refined by the tachometers, and
 forces from the residual of the joint torques. The code that is executed in a servo period does not itself let time
-pass. After it has commanded all devices, it yields to its caller, who lets time pass. When it is resumed, it reads the
-cell.
+pass. After commanding all devices, this code yields to its caller, who lets time pass. When the caller resumes the
+code, the code reads the cell.
 """
 
 from collections.abc import Callable, Generator

@@ -30,14 +30,14 @@ it is taken up. The tolerance is needed because fingers slide on an object.
 def loop_entry(
     done: Sequence[ExecutedStep], hand: Callable[[int], Array | None], *, grasping: bool | None = None
 ) -> int | None:
-    """Return the index of the step to which the last jump back returned, if the state of the cell is the same as at
-    the end of that step. Returns None if there is no such step.
+    """Return the index of the step to which the last jump back led, if the state of the cell is now the same as at the
+    end of this step. Returns None if the state differs, or if no jump counts.
 
-    The jump counts only if all motions since that step were in free air. If a MOVE to the next place of a search were
-    reversed, the hand would end in contact with the object that it met at the previous place. `hand` takes the index
-    of a step, and returns the position of the hand after the step (shape (3,), in W), or None if the hand had not
-    moved yet. `grasping` gives the state of the fingers at the end of the last step. It is True if the fingers have
-    closed, and have not opened after that. It is None if the last step did not change this state.
+    A jump counts only if all motions since the step to which it led were in free air. If a MOVE to the next place of a
+    search were reversed, the hand would end in contact with the object that it met at the previous place. `hand` takes
+    the index of a step, and returns the position of the hand after the step (shape (3,), in W), or None if the hand
+    had not moved yet. `grasping` gives the state of the fingers at the end of the last step. It is True if the fingers
+    have closed, and have not opened after that. It is None if the last step did not change this state.
     """
     last = len(done) - 1
     for head in range(last, 0, -1):
@@ -57,8 +57,8 @@ def loop_entry(
 def _keeps_hold(done: Sequence[ExecutedStep], index: int, grasping: bool | None) -> bool:
     """Return True if the hand holds the same object before and after a step.
 
-    A grasp at the beginning of a loop is not regarded as keeping the same object, because each round may grasp another
-    object.
+    A grasp at the beginning of a loop does not count as keeping hold of the same object, because the hand may grasp a
+    different object in each round.
     """
     here, (before, behind) = done[index], done[index].gap
     after = (
