@@ -182,8 +182,9 @@ class PhysicsStepper:
         }
 
     def _marked(self, pairs: Iterable[tuple[str, ...]]) -> NDArray[np.bool_]:
-        """Return a symmetric table that marks the pairs of trees to which the named bodies belong. If only one body is
-        named, all pairs with its tree are marked. The last row is for bodies fixed in the world.
+        """Return a symmetric table of pairs of trees. For each pair of named bodies, the pair of their trees is
+        marked. If only one body is named, all pairs with its tree are marked. The last row is for bodies fixed in the
+        world.
         """
         model = self._model
         table = np.zeros((model.ntree + 1, model.ntree + 1), dtype=bool)

@@ -78,7 +78,9 @@ Mask = NDArray[np.bool_]
 
 
 class Frames:
-    """The poses of a cell's bodies, as the simulator computed them last: one physics step before the present tick."""
+    """The poses of a cell's bodies one physics step before the present tick. These are the latest poses that the
+    simulator has computed.
+    """
 
     def __init__(self, truth: Truth, joints: tuple[str, ...]) -> None:
         """Observe a cell. `joints` are the names of the arm's joints, in the order of the arm."""
