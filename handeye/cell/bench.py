@@ -58,8 +58,8 @@ class Bench(Clock, Mechanism[BenchTime]):
         self.before_step: list[Callable[[], None]] = []  # called before every physics step
         self.after_step: list[Callable[[], None]] = []
         self.before_period: list[Callable[[], None]] = []
-        """Functions called before time passes. They are called at least every 1/60 s, except while all bodies are
-        asleep.
+        """Functions called before each advance of the simulated time. An advance lasts at most 1/60 s, except while
+        all bodies are asleep.
         """
         self.after_period: list[Callable[[], None]] = []
         self.handlers: dict[str, Callable[[], None]] = {}  # handlers of events, by name

@@ -40,7 +40,9 @@ def body_pose(data: mujoco.MjData, name: str) -> Pose:
 
 
 def _stand(body: mujoco.MjsBody, data: mujoco.MjData, elsewhere: Pose | None) -> None:
-    """Set the pose of a body with joints. The present positions of the body's joints become their initial positions."""
+    """Set the pose of a body that has joints. The present positions of the body's joints become their initial
+    positions.
+    """
     X_WP = body_pose(data, body.name) if elsewhere is None else elsewhere
     X = inverse(body_pose(data, body.parent.name)) @ X_WP
     body.pos = X[:3, 3]

@@ -20,7 +20,7 @@ REMEMBERED: Final = (
     "pending", "saved", "heights", "counters", "search", "restored", "goal", "place", "travel",
     "finger_line", "grasping", "unlike", "general", "world",
 )  # fmt: skip
-Memory = dict[str, Any]  # by field of the state
+Memory = dict[str, Any]  # from the name of a field of the state to its value
 _UNCHECKED: Final[Memory] = {"done": [], "undoing": None, "unwound": {}, "shots": {}, "found": {}}
 """Fields that steps do not store. These fields are large and known to be valid, so they are replaced by empty ones
 before the memory of a step is checked.
