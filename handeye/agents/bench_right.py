@@ -1,4 +1,4 @@
-"""What a right program does in a world of the agents' bench, and the referee's findings on a program."""
+"""States what a correct program does in a world of the agents' bench, and makes the referee's findings on a program."""
 
 from __future__ import annotations
 

@@ -187,8 +187,8 @@ class _Side:
         return turned[::-1] if self.backwards else turned
 
     def _line(self, place: int) -> int:
-        """Convert the number of a picture row or column to a line number of this side, or a line number to a row or
-        column.
+        """Convert the number of a row or column of the picture to the line number of this side. The same conversion
+        also leads back from a line number to a row or column.
         """
         return len(self._image) - 1 - place if self.backwards else place
 
