@@ -78,8 +78,8 @@ def carry_out(
     go: Callable[[int | None], Pause] | None = None,
     tell: Callable[[str], None] = lambda _: None,
 ) -> Pause:
-    """Execute a job from its present state to the end of its program, or for N steps, where N is `after`. Then reverse
-    the job, if it can be reversed.
+    """Execute a job from its present state to the end of its program. If `after` is given, execute only this number of
+    steps. Then reverse the job, if it can be reversed.
 
     `go` executes a number of steps, or all steps if the number is None. The default `go` works without an operator.
     `tell` is called twice: with a sentence on how the program ended, and with a sentence on how the reversal ended.
