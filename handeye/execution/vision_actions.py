@@ -92,8 +92,8 @@ def look(run: ExecutionContext, operation: Look) -> Fault | None:
 
 
 def _dead(run: ExecutionContext, name: str, picture: Picture) -> SenseCause | None:
-    """Return the reason why a picture cannot be a new picture of a camera without faults, or None if there is no such
-    reason.
+    """Return a reason to suspect that the camera is faulty, or None. Such a reason is a picture that is blank, noisy
+    or equal to an earlier picture.
     """
     if blank(picture):
         return PictureBlank(picture=name)

@@ -96,7 +96,8 @@ def sound_run(folder: Path, of: Setup, world: WorldSpec, every: int | None = EVE
 
 
 def _begun(store: CheckpointStore, stages: Sequence[str]) -> Iterator[tuple[int, int]]:
-    """Yield each number of steps after which a schedule can begin, together with the number of the stage.
+    """Yield each number of steps after which a schedule can begin, together with the number of the stage in which the
+    schedule then begins.
 
     If the program has only one stage, no schedule begins near the end of the program, because a resumed run may have
     to undo the work of the stage.
