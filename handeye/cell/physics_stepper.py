@@ -30,7 +30,7 @@ Euler's method moves the joints, and with them the hand, along an arc, but a fre
 body, Euler's method thus leaves out the second-order term of the motion: half the acceleration times the square of the
 step. After long steps this term is therefore added to carried bodies; it is a few micrometres in a servo period. The
 term does not stop a part that slips in the fingers, because only friction holds the part. Short steps leave the term
-out. With the term, a held part creeps less than in short steps.
+out. A held part therefore creeps less in long steps, with the term, than in short steps, without it.
 
 MuJoCo puts a tree of bodies to sleep when the tree, and everything it touches, has hardly moved for ten steps. MuJoCo
 wakes a sleeping tree when an awake body touches the tree, but not when a motor receives a new command. Code that
