@@ -139,7 +139,7 @@ class _Walk:
 
     @property
     def told(self) -> Level:
-        """The level, without the values that its complete sample determines."""
+        """The level with the values that are known before its sample is complete. The other values are 0."""
         return Level(
             number=self._last.number + 1, runs=self._runs, threshold=0, share=0, failed=0, variation=0,
             acceptance=self._accepted / self._runs, step=self._step,
@@ -166,7 +166,7 @@ class _Walk:
 
 
 def _level(chains: Sequence[_Chain], told: Level) -> Level:
-    """Complete a level with the threshold, the share and the failures that its sample gives."""
+    """Complete a level: compute its threshold, its share and its number of failures from the sample of the level."""
     margins = sorted(state.margin for chain in chains for state in chain)
     threshold, failed = _threshold(margins), sum(margin <= FAILED for margin in margins)
     below = sum(margin <= threshold for margin in margins)

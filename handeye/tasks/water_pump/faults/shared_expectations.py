@@ -1,7 +1,7 @@
 """Defines when a call to the operator names a fault correctly. Also defines the expectations that several faults share.
 
-The expected detection of a fault is part of its declaration. A correct call names the faulty part or sense, so
-that a person knows where to look. If the arm cannot distinguish several causes, the call names all of them: a
+The expected detection of a fault is part of its declaration. A correct call names the faulty part or sense, so that a
+person knows where to look. If the arm cannot distinguish several causes, the call names all of them. For example, a
 screw that stops high may be cross-threaded, or its hole may be blocked.
 """
 
