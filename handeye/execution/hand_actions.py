@@ -151,7 +151,9 @@ def _touch(run: ExecutionContext) -> tuple[bool, bool]:
 
 
 def _begin_to_close(run: ExecutionContext) -> Fault | None:
-    """Check before closing that no switch is closed. If a finger touches an object, the hand first opens a little."""
+    """Check that no finger touches an object before the hand closes. If a touch switch is on, open the hand a little,
+    and return an error if a switch is still on.
+    """
     drive, already = run.drive, run.state.grasping
     run.state.grasping, drive.state.in_air = True, False
     drive.state.clear = drive.state.clear and already  # what is grasped stands on something

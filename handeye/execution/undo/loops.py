@@ -2,9 +2,9 @@
 
 Such steps are rounds of a loop, and touches. When a program has jumped back to an earlier step, the cell is assumed to
 be in the same state as after that step if four conditions hold. Since that step, no stage began and the operator was
-not called. The hand holds the same object. Every object was put down at the place where it was taken up, or taken up at
-the place where it was put down. Every screw that was driven in was backed out. Rounds that carry objects to another
-place do not meet the conditions and are reversed step by step.
+not called. The hand holds the same object as after that step. Every object was put down at the place where it was
+taken up, or taken up at the place where it was put down. Every screw that was driven in was backed out. Rounds that
+carry objects to another place do not meet the conditions and are reversed step by step.
 
 A touch is a motion of an empty hand that ended on contact, together with the motion that left the object. If a touch
 were reversed step by step, the hand would touch the object a second time. The object may have been pushed after the

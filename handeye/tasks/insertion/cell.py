@@ -139,7 +139,7 @@ the pin's descent.
 
 
 class Witness(PhysicsStepper):
-    """Steps the physics, and records how pin and plate touch after each step with a contact."""
+    """Steps the physics, and records the contacts of pin and plate after each step."""
 
     def __init__(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
         super().__init__(model, data)

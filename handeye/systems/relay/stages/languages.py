@@ -169,8 +169,9 @@ def _distinct(steps: Iterable[Step]) -> int:
 
 
 def _lines(stage: str, file: str) -> int:
-    """Count the lines of a stage's program. In the arm language, count the lines that the stage executes, and each
-    line of a macro once. In any other language, count the lines that are neither blank nor remarks.
+    """Count the lines of a stage's program. In the arm language, count the lines that the stage executes. A line of a
+    macro counts once, however often the stage calls the macro. In any other language, count the lines that are neither
+    blank nor remarks.
     """
     if file == CAREFUL:
         program, _ = own_program(TASK)
