@@ -143,8 +143,8 @@ class Bench(Clock, Mechanism[BenchTime]):
         return max(self._before_event(), 1) * self.tick if self._due else None
 
     def _before_event(self) -> int:
-        """Return the number of physics steps before the next event is handled, or a number that is never reached if
-        no event is pending.
+        """Return the number of physics steps before the next event is handled. If no event is pending, return a number
+        that is never reached.
         """
         return self._step_of(self._due[0]) - self._steps if self._due else _LATEST
 

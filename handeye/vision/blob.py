@@ -147,7 +147,7 @@ def _grow(scan: Scan, u: int, v: int, threshold: float) -> BoundingBox:
 
 
 class _Side:
-    """One side of a growing box. The side sees the picture turned, so that line numbers increase outwards."""
+    """One side of a growing box. For each side, the picture is turned so that line numbers increase outwards."""
 
     def __init__(self, scan: Scan, side: int) -> None:
         """`side` is the index of the side among the four numbers of a box."""

@@ -1,4 +1,4 @@
-"""Translates a MAL program of a single task into the program that the planner plans. Every line that cannot become a
+"""Translates a MAL program of a single task into a program for the planner. Every line that cannot become a
 motion is refused.
 
 The axes of one arm become table axes: another arm replaces the arm of SUPERSIGMA, and the board of SUPERSIGMA lies on
