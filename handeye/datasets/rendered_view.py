@@ -19,8 +19,9 @@ _FINER: Final = 2  # drawn points per point of the view along a side
 
 
 def rendered_view(trace: Trace, camera: str, times: Array) -> Iterator[Photograph]:
-    """Yield the view at each of some moments (s, ascending), shape (240, 320, 3), without shadows. A moment before the
-    recording shows the first recorded state, and a moment after the recording shows the last one.
+    """Yield the picture that a camera of the scene gives at each of `times` (s, ascending). A picture has the shape
+    (240, 320, 3) and shows no shadows. For a time before the recording, the picture shows the first recorded state.
+    For a time after the recording, the picture shows the last recorded state.
 
         A view is drawn only when a body has moved. Otherwise, the previous view is repeated, so a clock on the wall
     shows the time of the last motion.
