@@ -54,7 +54,9 @@ of the motion.
 
 
 class Halted(Exception):
-    """Raised when the panic button is pressed. From this servo period on, the drives are off and the brakes are set."""
+    """Raised when the panic button is pressed. From the servo period in which the button is pressed, the drives are
+    off and the brakes are set.
+    """
 
 
 @dataclass(slots=True, kw_only=True)

@@ -167,8 +167,8 @@ class Levels(NamedTuple):
         return cls(face=face, dark=dark)
 
     def step(self, search: HoleSearch) -> float:
-        """Return the least step of intensity at an edge: the fraction `contrast` of the difference between the face
-        and a hole, or two levels (a few times the noise) if two levels are more.
+        """Return the least step of intensity at an edge. This is the fraction `contrast` of the difference between the
+        face and a hole, but at least two levels, a few times the noise.
         """
         return max(2.0, search.contrast * (self.face - self.dark))
 

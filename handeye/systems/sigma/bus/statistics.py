@@ -1,4 +1,4 @@
-"""Counts how often commands are misread, depending on the clock errors of the receivers."""
+"""Counts how often receivers misread commands, for different clock errors of the receivers."""
 
 from typing import Final
 
