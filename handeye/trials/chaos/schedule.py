@@ -149,7 +149,7 @@ def draw(
 
 
 def _fault(chance: random.Random, kind: FaultKind, stage: int) -> Fault:
-    """Draw a fault of a kind that begins with a stage. The fault has its usual size or a random size."""
+    """Draw a fault of a given kind. The fault begins with the stage, and has its usual size or a random size."""
     usual = kind.usual(stage)
     if kind.size is None or chance.random() < 0.5:
         return usual

@@ -115,8 +115,8 @@ class Graph:
         return found
 
     def step_at(self, id: int) -> int:
-        """Return this node or, if it is a bloop, the first node below it that is not a bloop. NONE if there is no
-        such node.
+        """Return this node or, if it is a bloop, the first node below it that is not a bloop. Returns NONE if there is
+        no such node.
         """
         while id != NONE and self[id].type == "bloop":
             id = self[id].sons[0]
