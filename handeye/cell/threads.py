@@ -352,7 +352,7 @@ class Threads(Mechanism[ThreadsState]):
         return min(RUNNING_TORQUE + self._figures.friction * THREAD_RADIUS * thread.clamp, CROSSED_TORQUE)
 
     def write(self, holes: tuple[Thread, ...], model: mujoco.MjModel) -> None:
-        """Apply thread states to a model of this scene that is in its initial state."""
+        """Apply thread states to a model of this scene. The model must be in its initial state."""
         for hole, thread in enumerate(holes):
             self._carriers.meet(hole, model, there=thread.screw is not None)
             if thread.screw is not None:

@@ -97,7 +97,7 @@ def _most(rows: Sequence[JobRow]) -> dict[str, float]:
 
 
 def _means(rows: Sequence[JobRow]) -> dict[str, float]:
-    """Return the means of the figures."""
+    """Return the mean value of each figure."""
     ended = [row.figures for row in rows if row.figures]
     if not ended:
         return {}
