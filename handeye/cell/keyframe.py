@@ -13,8 +13,8 @@ HINGE: Final = mujoco.mjtJoint.mjJNT_HINGE
 
 
 def add_keyframe(spec: mujoco.MjSpec, name: str, data: mujoco.MjData, elsewhere: Mapping[str, Pose]) -> None:
-    """Give the bodies of a scene the poses that they have in the simulation, and store these poses as the last
-    keyframe of the scene. The scene may lack some bodies of the simulation.
+    """Give the bodies of a scene the poses that they have in the simulation, and store the state of the bodies as the
+    last keyframe of the scene. The scene may lack some bodies of the simulation.
 
     The initial state of the scene is set as well, so that a viewer that loads no keyframe shows the same state.
     `elsewhere` gives the poses `X_WP` of free bodies that are to rest at another place than in the simulation.

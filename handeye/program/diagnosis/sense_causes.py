@@ -43,8 +43,8 @@ class SwitchesHard(CauseRecord, frozen=True, kw_only=True):
 
 
 class GapJumped(CauseRecord, frozen=True, kw_only=True):
-    """The gap (m) has changed faster than the fingers can move. `held` is True if the fingers touched an object or
-    an object kept them apart.
+    """The gap (m) has changed faster than the fingers can move. `held` is True if there was an object at the fingers:
+    the fingers touched it, or it kept them apart.
     """
 
     gap: float
