@@ -52,7 +52,7 @@ class Refers(StrEnum):
 
 
 class Document(Enum):
-    """Where an instruction or an operand was found. `docs/sources.md` describes the documents."""
+    """The source from which an instruction or an operand is known. `docs/sources.md` describes the sources."""
 
     PAPER_1973 = "paper 1973"
     MANUAL_1973 = "manual 1973"

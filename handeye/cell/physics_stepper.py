@@ -248,7 +248,9 @@ class PhysicsStepper:
         )
 
     def _allowed_by(self, pairs: BodyPairs) -> _Contacts:
-        """Judge contacts by the pairs of bodies that touch, because many sets of contacts have the same pairs."""
+        """Judge which steps are allowed while these pairs of bodies touch. The result depends only on the pairs, and
+        many sets of contacts have the same pairs.
+        """
         bodies = np.array(sorted(pairs), dtype=np.intp).reshape(-1, 2)
         first, second = self._model.body_treeid[bodies].T
         carried = bool(self._carried[first, second].all())
