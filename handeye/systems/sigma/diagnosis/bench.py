@@ -247,8 +247,9 @@ class Bench:
         self._switch_on()
 
     def press(self, arm: int, component: str, newtons: float) -> None:
-        """Press on a hand with a known force (N) along a component of its wrist. A force of 0 releases the
-        hand."""
+        """Press on a hand with a known force (N) in the direction of one of the force components that its wrist
+        measures. A force of 0 releases the hand.
+        """
         self.machine.loads[NUMBERS[f"FORCE{arm}"], COMPONENTS.index(component)] = newtons
 
     def pull(self, axis: str, newtons: float) -> None:
