@@ -230,7 +230,9 @@ class HoleFinder:
         return Candidate(Blob(u=u, v=v, width=width, height=height, bounces=0), x, y, diameter)
 
     def _around(self, first: Candidate) -> Array:
-        """Return points (u, v), shape (n, 2), just beyond the edges that beams from the largest hole find."""
+        """Return points (u, v), shape (n, 2), at which the second hole may be. Beams search for dark edges on an arc
+        around the largest hole, `first`. Each point is just beyond an edge.
+        """
         large, small = self._part.holes[:2]
         planned = self._part.at[3] + math.atan2(small.y - large.y, small.x - large.x)
         spokes = np.column_stack([np.cos(planned + ANGLES), np.sin(planned + ANGLES)])

@@ -125,8 +125,8 @@ class _Walk:
         self._runs = self._accepted = 0
 
     def chains(self, length: int) -> list[_Chain]:
-        """Return chains that have `length` states together. In each round, every chain that is not yet complete
-        advances by one state.
+        """Return the chains of the next level. The sum of their numbers of states is `length`. In each round, every
+        chain that is not yet complete advances by one state.
         """
         least, more = divmod(length, len(self._seeds))
         lengths = [least + (number < more) for number in range(len(self._seeds))]
