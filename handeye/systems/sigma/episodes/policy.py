@@ -141,7 +141,7 @@ class _SeenBus(MicrobusPort):
         return Status.BUSY if status is Status.BUSY else Status.FREE
 
     def _answer(self, question: Command, count: int) -> None:
-        """Answer a question from the last observation. If commands were collected, execute them before the answer."""
+        """Take the answer to a question from the last observation. If commands were collected, execute them first."""
         if self._sent:
             self.step()
         self._aborts.pop(question.number, None)
