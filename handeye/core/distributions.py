@@ -35,8 +35,8 @@ class Distribution(ABC):
         return None
 
     def at(self, number: float, nominal: float) -> float:
-        """Return the value that belongs to a standard normal number. Numbers that are normally distributed give
-        values of this distribution; 0 gives the middle.
+        """Convert a standard normal number to a value. If `number` is normally distributed, the value has this
+        distribution. A number of 0 gives the middle of the distribution.
         """
         raise NotImplementedError
 
