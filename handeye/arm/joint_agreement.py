@@ -113,9 +113,9 @@ def scattered(arm: ArmModel, M: Array, friction: Array, rates: Array) -> Scatter
     scatter is tolerable.
 
     The scatter is the median distance of the readings from their own median, so a single jerk, for example when a held
-    part slips, has no effect. A joint whose friction, shape (n,), in N m or N, is less than half a step of its torque
-    converter may swing at rest: its torque then alternates between two neighbouring steps. `M` is the mass matrix,
-    shape (n, n).
+    part slips, has no effect. A joint may swing at rest if its friction is less than half a step of its torque
+    converter: its torque then alternates between two neighbouring steps. `friction` has shape (n,), in N m or N. `M`
+    is the mass matrix, shape (n, n).
     """
     scatter = np.median(np.abs(rates - np.median(rates, axis=0)), axis=0)
     swing = np.diag(np.linalg.inv(M)) * torque_step(arm) / 2 * arm.servo.period
@@ -128,8 +128,8 @@ def scattered(arm: ArmModel, M: Array, friction: Array, rates: Array) -> Scatter
 
 @dataclass(slots=True, kw_only=True)
 class _SensorPair:
-    """Compares the two sensors of one joint from the start of a motion. The values are floats, which are faster than
-    arrays for the few joints of an arm.
+    """Compares the two sensors of one joint in each servo period of a motion. The values are floats, which are faster
+    than arrays for the few joints of an arm.
     """
 
     start: float  # potentiometer at the start

@@ -1,4 +1,4 @@
-"""Finds the rough place of a part on which a shadow lies. The part is found by its two large holes.
+"""Finds the rough place of a part on which a shadow lies. The two large holes of the part show where the part is.
 
 In a shadow, a part can be as dark as the lit background, and its outline then does not stand out. Its holes are still
 darker than the face around them, because the same shadow lies on both.
