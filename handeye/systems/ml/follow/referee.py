@@ -64,7 +64,7 @@ def distance(at: Array, outline: Array) -> float:
 
 
 def along(outline: Array, count: int = 20) -> Array:
-    """Return places along an outline, `count` of them on each side."""
+    """Return places along a polygonal outline: `count` places on each edge of the polygon."""
     ends = np.roll(outline, -1, axis=0)
     shares = np.arange(count) / count
     return np.concatenate(

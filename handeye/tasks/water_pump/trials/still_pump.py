@@ -99,8 +99,8 @@ def put_base(still: StillPump, place: Place, *, pins: bool) -> None:
 
 
 def look(camera: TvCamera, known: CameraModel, lens: float, point: tuple[float, float, float]) -> View:
-    """Select the lens, aim the camera, and focus the lens, as the executor does. Returns the view as the program
-    believes it to be.
+    """Select the lens, aim the camera, and focus the lens, as the executor does. Returns the view that the program
+    computes from its camera model and the potentiometers.
     """
     camera.lens(lens)
     camera.aim(*known.aim(point, lens))
