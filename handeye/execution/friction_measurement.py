@@ -74,8 +74,8 @@ def measure_joints(
     """Measure joint friction and link weights. The arm ends where it began.
 
     The arm moves back and forth around the set-point in `state`. Raises FrictionUnknown if a joint does not move as
-    commanded or needs far more torque than its stated friction, or if a link weight is implausible. Raises Halted if
-    the panic button is pressed.
+    commanded, if its friction is far greater than stated, or if a link weight is implausible. Raises Halted if the
+    panic button is pressed.
     """
     periods: list[ServoPeriod] = []
     drive = ArmDrive(cell=cell, arm=arm, state=state, watch=periods.append, halt=halt, arithmetic=arithmetic)

@@ -209,7 +209,9 @@ class Runner:
 
     @property
     def onward(self) -> int | None:
-        """Number of the step that would have run next if the program had not stopped to call the operator, or None."""
+        """If the program has stopped to call the operator, the number of the step that would have run next; if not,
+        None.
+        """
         return self.system.state.onward
 
     @property

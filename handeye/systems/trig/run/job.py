@@ -110,8 +110,8 @@ def _turns(runner: Runner, pause: Pause, after: int | None) -> bool:
 
 
 def ends_job(runner: Runner, result: Result) -> bool:
-    """Return True if a run is a job that has ended and, if its program was completed, has been judged. Return False if
-    the run was reversed because a user ordered the reversal.
+    """Return True if a run is a job that has ended. If the program of the job was completed, the referee must also
+    have judged the job. Return False if the run was reversed because a user ordered the reversal.
     """
     system = runner.system
     if not isinstance(system, RunningJob) or result.paused or (runner.undone and system.state.turn is None):
