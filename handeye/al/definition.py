@@ -21,7 +21,7 @@ NIL: Final = "NIL"  # dialect of 1977: no force or moment
 
 
 class OperandUnit(Record, frozen=True, kw_only=True):
-    """The unit of an operand, with its SI value."""
+    """The unit of an operand. `si` is the value of one such unit in SI units."""
 
     name: str
     si: float

@@ -7,8 +7,8 @@ enough; the screw turns clockwise; and its angle matches the phase of the thread
 out of sight, and the carrier takes its place. A screw that enters at an angle cuts its own thread, stays at that
 angle, and jams before it is seated. Once the carrier has taken the place of the screw, the physics computes all that
 follows: the shank touches the holes of the parts above, the head touches the part beneath, and friction grows with the
-clamp force. The motor turns the carrier against the body of the driver, so the bodies that hold the driver and the
-tapped part carry the torque. A screw that is turned back to the place where its thread began is loose again.
+clamp force. The motor turns the carrier against the body of the driver, so the torque acts on the body that holds the
+driver, and on the tapped part. A screw that is turned back to the place where its thread began is loose again.
 scenes/water_pump/README.md lists the simplifications of this model.
 
 In a scene with screws, the screws are numbered from 0, and the scene uses the following names. Each screw is a free

@@ -256,9 +256,10 @@ def _bulge(new: Scan, old: Scan, view: View, centre: Array, hole: Hole, steps: _
     """Measure the bulge (m) of the border in the difference, around the base's hole at `centre` (in metres, shape
     (3,)).
 
-    The border is that of a union of two discs. Half of this border is nearly undisturbed, so the bulge is measured
-    from the median radius. An aligning pin may hide the border of the base's hole. A ray therefore counts only if, in
-    the picture without the gasket, the border is visible where the ray crosses it.
+    The gasket's hole and the base's hole overlap, and the border is the outline of these two discs together. Half of
+    this border is nearly undisturbed, so the bulge is measured from the median radius. An aligning pin may hide the
+    border of the base's hole. A ray therefore counts only if, in the picture without the gasket, the border is visible
+    where the ray crosses it.
     """
     radii, (middle, reach) = [], _seen(view, centre, hole)
     for scan, step, beyond in ((old, steps.before, steps.face), (new, steps.after, 0.0)):
