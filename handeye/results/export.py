@@ -157,7 +157,7 @@ class Weight(Record, frozen=True, kw_only=True):
 
 
 class Export(Record, frozen=True, kw_only=True):
-    """A record of an export that was written."""
+    """Describes an export file that handeye has written."""
 
     path: str
     format: Literal["mjcf", "glb"]
