@@ -185,9 +185,9 @@ class JointAgreement:
         `unseen`, shape (n,), is how far the joints may have moved in this period in addition to what their rates show,
         because an object shifted in the fingers (see `thrown`).
 
-        While the rate changes evenly, the mean of two successive rates is the mean rate in between. While the rate
-        changes unevenly, for example when a casting breaks loose and strikes the joint, the motion in between is
-        unknown. The unknown parts of different periods are independent, so their squares are added.
+        While the rate changes evenly, the mean of two successive rates is the mean rate of the period between them.
+        While the rate changes unevenly, for example when a casting breaks loose and strikes the joint, the motion in
+        between is unknown. The unknown parts of different periods are independent, so their squares are added.
         """
         self._pairs = self._pairs or self._begun()
         if unseen is not None:
@@ -253,9 +253,9 @@ def blown(here: Dynamics, impulse: Array) -> Array:
     the joint was stopped again within the same servo period.
 
     `impulse`, shape (n,), N m s and N s, is the part of the change of momentum that the drives, the weight and the
-    friction of the arm do not explain. This part gives the impulse and the angular impulse on the hand. The directions
-    of both impulses may have changed within the period, so each impulse may have acted on each joint in the worst
-    direction.
+    friction of the arm do not explain. The impulse and the angular impulse on the hand are computed from this part.
+    The directions of both impulses may have changed within the period, so each impulse may have acted on each joint in
+    the worst direction.
     """
     wrench = np.linalg.lstsq(here.J.T, impulse, rcond=SINGULAR)[0]
     force, moment = np.linalg.norm(wrench[:3]), np.linalg.norm(wrench[3:])

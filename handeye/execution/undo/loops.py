@@ -1,10 +1,11 @@
 """Finds executed steps that left the cell as it was. One lift of the hand reverses all these steps.
 
-Such steps are rounds of a loop, and touches. When a program has jumped back to an earlier step, the cell is assumed to
-be in the same state as after that step if four conditions hold. Since that step, no stage began and the operator was
-not called. The hand holds the same object as after that step. Every object was put down at the place where it was
-taken up, or taken up at the place where it was put down. Every screw that was driven in was backed out. Rounds that
-carry objects to another place do not meet the conditions and are reversed step by step.
+Such steps are of two kinds: rounds of a loop, and touches. When a program has jumped back to an earlier step, the cell
+is assumed to be in the same state as after that step if four conditions hold. First, no stage began and the operator
+was not called since that step. Second, the hand holds the same object as after that step. Third, every object was put
+down at the place where it was taken up, or taken up at the place where it was put down. Fourth, every screw that was
+driven in was backed out. Rounds that carry objects to another place do not meet the conditions and are reversed step
+by step.
 
 A touch is a motion of an empty hand that ended on contact, together with the motion that left the object. If a touch
 were reversed step by step, the hand would touch the object a second time. The object may have been pushed after the
@@ -111,7 +112,7 @@ def _alike(one: ExecutedStep, other: ExecutedStep) -> bool:
 
 
 def _undone_itself(done: Sequence[ExecutedStep], entry: int, hand: Callable[[int], Array | None]) -> bool:
-    """Return True if only memory has changed since the step at `entry` was first executed."""
+    """Return True if nothing but the program's memory has changed since the step at `entry` was first executed."""
     rounds = range(entry, len(done) - 1)
     if any(done[index].called or done[index + 1].enters for index in rounds):
         return False
