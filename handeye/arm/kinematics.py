@@ -41,8 +41,8 @@ def link_rotations(angle: Array, cos_alpha: Array, sin_alpha: Array) -> Array:
 
 
 def point_jacobian(arm: ArmModel, R: Array, p: Array, points: Array) -> tuple[Array, Array]:
-    """Compute the Jacobians of points in W, shape (..., m, 3), that move with the hand, beyond all joints of the
-    chain `R`, `p`.
+    """Compute the Jacobians of points that move with the hand. `points`, shape (..., m, 3), gives their places in W.
+    The points are beyond all joints of the chain `R`, `p`.
 
     Returns the velocity of each point per joint rate, shape (..., m, n, 3), and the angular velocity per joint
     rate, shape (..., n, 3).

@@ -140,8 +140,8 @@ def _quickest(arm: ArmModel, knots: Array, speed: float) -> Trajectory:
 
 
 def _stretch(arm: ArmModel, knots: Array, times: Array) -> Array:
-    """Return the factors on segment times (..., 3) that bring speeds and accelerations just within the limits,
-    shape (...).
+    """Return the factors, shape (...), by which the segment times (..., 3) must be multiplied so that all speeds and
+    accelerations are just within the limits.
     """
     k = constants(arm)
     coefficients = _coefficients(knots, times)

@@ -13,10 +13,11 @@ so that a part sinks as deep into the fingers as in short steps (`stiffened`). C
 long steps. If a finger that presses with 80 N lost its contact with the part in a long step, the finger would move 1.5
 mm into the part before the next step detected the contact, and would throw the part away.
 
-In middle steps all contacts and couplings are made stiffer in the same way, so a change of the length of the step
-changes no force at rest. All contacts except those of the hand may begin and end in middle steps. The task names the
-*delicate* contacts, which need short steps, and the joints that must be at rest in middle steps. For example, a screw
-that is tightened in middle steps clamps with less force than a screw that is tightened in short steps.
+In middle steps, all contacts and couplings are made stiffer in the same way. The forces between bodies at rest are
+therefore the same in short and in middle steps. All contacts except those of the hand may begin and end in middle
+steps. The task names the *delicate* contacts, which need short steps, and the joints that must be at rest in middle
+steps. For example, a screw that is tightened in middle steps clamps with less force than a screw that is tightened in
+short steps.
 
 If a part is crushed, for example between a fixture and a hand that runs into it, the computation may diverge in
 short steps. The interval of this step is then computed again in fine steps.

@@ -74,8 +74,8 @@ class Agenda(MutableRecord, Generic[Time], kw_only=True):
         pass_until: Callable[[Time], Time],
         next_event: Callable[[], Time | None] = lambda: None,
     ) -> str | None:
-        """Return the task that continues next, or None if all tasks have ended. The caller must then call `sleep`,
-        `wait` or `end` for the task.
+        """Return the task that continues next, or None if all tasks have ended. The caller executes the task, and must
+        then call `sleep`, `wait` or `end` for it.
 
         `met` returns True if the condition of a waiting task is met. `pass_until` lets time pass at least until the
         given time, and returns the new time. `next_event` returns the time of the next event for which tasks may

@@ -228,8 +228,8 @@ Examination = Callable[[Picture, Picture, View, Part, Pose2D], Found | Failure]
 def _compared(
     run: ExecutionContext, operation: Comparison, number: int, examine: Examination[Found]
 ) -> Found | Fault | None:
-    """Examine two pictures, the earlier first. Returns the finding. If the examination fails, returns the error
-    `number`. If vision is switched off, returns None.
+    """Examine the two pictures of a comparison with `examine`, which takes the earlier picture first. Returns the
+    finding. If the examination fails, returns the error `number`. If vision is switched off, returns None.
     """
     if "vision" in run.without:
         return None

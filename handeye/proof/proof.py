@@ -224,7 +224,7 @@ class _Prover:
 
 
 def _undone(form: Effects, way: list[Leg]) -> int | None:
-    """Find the last leg that undoes shown phases of a claim. Return the index of this leg."""
+    """Return the index of the last leg that undoes a phase of a claim that an earlier leg has shown."""
     found, shown = None, form.first
     for index, leg in enumerate(way):
         table = form.tables.get((leg.node, leg.edge))

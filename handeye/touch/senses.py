@@ -93,8 +93,9 @@ def leapt(change: float, reach: float) -> bool:
 
 
 def work_of_fingers(change: float, force: float) -> float:
-    """Compute, from a change (m) of the gap and the force (N) of the fingers, the work (J) that the fingers have done
-    on the object between them. The work is 0 if the fingers may have stood still, or were pushed apart.
+    """Compute the work (J) that the fingers have done on the object between them. `change` is the change of the gap
+    (m), and `force` is the force of the fingers (N). The work is 0 if the fingers may have stood still, or were pushed
+    apart.
     """
     return -change * force if change < -SHIFT_NOISE else 0.0
 

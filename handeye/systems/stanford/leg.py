@@ -138,7 +138,7 @@ class PlanLeg(RunningPlan, RunningLeg):
 
 
 class PlanLegs(LegSystem):
-    """Legs of the system of 1973."""
+    """The legs of a relay that are stages of a plan of motions."""
 
     system = PLANNED
     state = ExecutionState

@@ -157,8 +157,8 @@ class _Walk:
         self._step = min(1.0, max(SMALLEST_STEP, step))
 
     def _candidate(self, point: Point) -> Point:
-        """Propose a world. If every proposal were accepted, the numbers of the worlds would stay independent and
-        standard normal.
+        """Propose a world near the world `point`. If every proposal were accepted, the random numbers that describe
+        each world would stay independent and standard normal.
         """
         drawn, kept = self._rng.standard_normal(len(point.numbers)), math.sqrt(1 - self._step**2)
         redrawn, noise = self._rng.random() < REDRAWN, int(self._rng.integers(LARGEST_SEED, endpoint=True))
