@@ -29,8 +29,8 @@ class Distribution(ABC):
         """Draw a value; `nominal` is the value without error."""
 
     def standard(self, rng: np.random.Generator) -> float | None:
-        """Draw the standard normal number for which `at` returns the value that `draw` would return. Returns None if
-        the value is the same in every world.
+        """Draw a standard normal number. For this number, `at` returns the value that `draw` would return. Returns
+        None if the value is the same in every world.
         """
         return None
 
