@@ -1,5 +1,5 @@
-"""Defines the interface of a task with one hole, as the trials of insertion use it. The cell of such a task has a
-witness, which records what really happened in each insertion.
+"""Defines the interface of a task with one hole. The trials of insertion use this interface. The cell of such a task
+has a witness, which records what really happened in each insertion.
 """
 
 from __future__ import annotations
