@@ -23,8 +23,8 @@ def rendered_view(trace: Trace, camera: str, times: Array) -> Iterator[Photograp
     (240, 320, 3) and shows no shadows. For a time before the recording, the picture shows the first recorded state.
     For a time after the recording, the picture shows the last recorded state.
 
-    A view is drawn only when a body has moved. At all other times, the previous view is repeated, so a clock on the wall
-    shows the time of the last motion.
+    A view is drawn only when a body has moved. At all other times, the previous view is repeated, so a clock on the
+    wall shows the time of the last motion.
 
     Raises:
         InvalidInput: the scene has no such camera, or OpenGL cannot be used.
