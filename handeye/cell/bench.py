@@ -149,8 +149,8 @@ class Bench(Clock, Mechanism[BenchTime]):
         return self._step_of(self._due[0]) - self._steps if self._due else _LATEST
 
     def _step_of(self, due: Due) -> int:
-        """Return the number of the physics step before which an event is handled: the first step that begins at the
-        time of the event or later.
+        """An event is handled before the first physics step that begins at the time of the event or later. Return the
+        number of this step.
         """
         return math.ceil(due.microseconds / (MICROSECONDS * self._tick))
 

@@ -192,7 +192,9 @@ def _check_moved(arm: ArmModel, samples: Samples, periods: Sequence[ServoPeriod]
 
 
 def _unexplained(arm: ArmModel, periods: Sequence[ServoPeriod], period: float) -> Array:
-    """Return the mean torque beyond weight and inertia, shape (n,), from the end of the first servo period on."""
+    """Return the mean torque of each joint, minus the torques of weight and inertia, shape (n,). The mean is taken
+    over the time after the first servo period.
+    """
     before, *after = periods
     q = np.array([each.sensed.q for each in after])
     efforts = np.array([each.effort for each in after])
