@@ -73,7 +73,9 @@ def along(outline: Array, count: int = 20) -> Array:
 
 
 def turning_number(touches: Array, centre: Array) -> int:
-    """Connect all touches to a closed path, and return how many times this path goes around `centre`."""
+    """Connect all touches in order, and the last touch with the first. Returns how many times this path goes around
+    `centre`.
+    """
     turns = np.unwrap(np.arctan2(*(np.concatenate((touches, touches[:1])) - centre).T))
     return round(float(turns[-1] - turns[0]) / (2 * np.pi)) if len(touches) else 0
 
