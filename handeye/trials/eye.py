@@ -67,7 +67,9 @@ def eye_sweep(name: str, trial: Trial[Any]) -> Sweep[EyeRow]:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class EyeWork:
-    """Makes the attempts of a task's trial. The attempts of a case share a world and its camera calibration."""
+    """Makes the attempts of one trial of a task's vision. The attempts of a case share a world and its camera
+    calibration.
+    """
 
     task: str
     trial: str
