@@ -56,8 +56,8 @@ class Delay:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Branch:
-    """`BRANCH`: go to `then` if the flag of any listed sensor is on. If a sensor is listed with a negative number, go
-    to `then` if its flag is off.
+    """`BRANCH`: go to `then` if the flag of any listed sensor is on. A sensor with a negative number in the list
+    counts if its flag is off.
     """
 
     then: int

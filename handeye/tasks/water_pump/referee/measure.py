@@ -170,7 +170,7 @@ def rotor_lean(measured: SettledState) -> float:
 
 
 def rotor_torque(measured: SettledState) -> float:
-    """Return the greatest torque needed to turn the rotor all the way round in both directions (N m).
+    """Turn the rotor all the way round in both directions, and return the greatest torque on the way (N m).
 
     The result is infinite if the greatest permitted torque does not turn the rotor all the way. The torque is
     measured on a copy of the cell in which everything but the rotor is fixed, and in which any obstacle stops
