@@ -230,8 +230,8 @@ def jumped(
     before and after this period. Returns None if all agree.
 
     A reading that jumps is detected at once, whatever the arm does. `blow` gives the changes of rate that a blow on
-    the hand may have caused within the period (see `blown`). `throw` is how far an object that shifted in the fingers
-    may have moved the joints (see `thrown`). All arrays have shape (n,).
+    the hand may have caused within the period (see `blown`). `throw` is how far the joints may have moved because an
+    object shifted in the fingers (see `thrown`). All arrays have shape (n,).
     """
     half, change = arm.servo.period / 2, np.abs(after - before)
     gone = (before + after) * half

@@ -65,7 +65,8 @@ def pivot(arm: ArmModel, q_start: Array, turn: Array, speed: float, ramp: float 
     """Plan a turn of the hand about its tool point. Returns the set-points of the motion, or the reason why the motion
     is impossible.
 
-    The motion covers the rotation vector `turn` (rad, in W, shape (3,)) and cruises at up to `speed` (rad/s).
+    `turn`, shape (3,), is the rotation vector of the whole motion (rad, in W). `speed` is the greatest speed of the
+    turn (rad/s).
     """
     angle = float(np.linalg.norm(turn))
     s, sd, sdd = _profile(angle, speed, ramp, arm.servo.period)

@@ -158,7 +158,7 @@ class Layout:
 
 @dataclass(slots=True, kw_only=True)
 class _Shelves:
-    """Places stages side by side, and starts a new shelf when the row is full."""
+    """Places stages side by side on a shelf, and starts a new shelf when the shelf is full."""
 
     edges: tuple[FlowEdge, ...]
     boxes: dict[int, StepBox] = field(default_factory=dict)

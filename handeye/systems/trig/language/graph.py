@@ -166,7 +166,7 @@ class Graph:
 
     def insert(self, after: int, branch: int, node: Node) -> None:
         """Insert a node on a branch of another node. The present son on this branch becomes the son of the new node.
-        If the new node is guarded, this son is on its normal branch.
+        If the new node is guarded, the son is placed on the normal branch of the new node.
         """
         self.nodes[node.id] = node
         son = self[after].sons[branch]
