@@ -4,8 +4,8 @@ most of these other contacts are computed in middle steps instead of short steps
 
 Contacts need short steps, because their softness grows with the square of the length of the step. Free motion does not
 need short steps: with long steps it has the same speeds, but is early by 1.6 ms, half of the difference between a long
-step and a short step. Brakes and dry friction of joints are constraints too. A joint held by friction creeps at up to
-9e-6 rad/s with long steps, and at up to 4e-6 rad/s with short steps.
+step and a short step. Brakes and dry friction of joints are constraints, as contacts are, but may be computed in long
+steps. A joint held by friction creeps at up to 9e-6 rad/s with long steps, and at up to 4e-6 rad/s with short steps.
 
 A part that is carried through the air touches only the bodies that hold it. While the part has only these contacts,
 steps may be long too, if the task names the pairs of bodies that touch. In long steps these contacts are made stiffer,
@@ -16,8 +16,7 @@ mm into the part before the next step detected the contact, and would throw the 
 In middle steps, all contacts and couplings are made stiffer in the same way. The forces between bodies at rest are
 therefore the same in short and in middle steps. All contacts except those of the hand may begin and end in middle
 steps. The task names the *delicate* contacts, which need short steps, and the joints that must be at rest in middle
-steps. For example, a screw that is tightened in middle steps clamps with less force than a screw that is tightened in
-short steps.
+steps. A screw, for example, is tightened in short steps, because in middle steps it would clamp with less force.
 
 If a part is crushed, for example between a fixture and a hand that runs into it, the computation may diverge in
 short steps. The interval of this step is then computed again in fine steps.
@@ -31,7 +30,7 @@ Euler's method moves the joints, and with them the hand, along an arc, but a fre
 body, Euler's method thus leaves out the second-order term of the motion: half the acceleration times the square of the
 step. After long steps this term is therefore added to carried bodies; it is a few micrometres in a servo period. The
 term does not stop a part that slips in the fingers, because only friction holds the part. Short steps leave the term
-out. A held part therefore creeps less in long steps, with the term, than in short steps, without it.
+out. A held part therefore creeps less in long steps than in short steps.
 
 MuJoCo puts a tree of bodies to sleep when the tree, and everything it touches, has hardly moved for ten steps. MuJoCo
 wakes a sleeping tree when an awake body touches the tree, but not when a motor receives a new command. Code that
