@@ -190,8 +190,8 @@ def fine_photograph(
 
 
 def _exposures(number: int) -> Iterator[_Exposure]:
-    """Yield exposures, always the same ones, spread evenly over the lens, the lamp, the sky and the pixel. The points
-    of the lens, of the lamp, of the sky and of the pixel are taken in different orders.
+    """Yield exposures, always the same ones, spread evenly over the lens, the lamp, the sky and the pixel. Lens, lamp,
+    sky and pixel each have their own order of points.
     """
     k, order = np.arange(number), np.random.default_rng(_SEED)
     radius, angle = np.sqrt((k + 0.5) / number), _TURN * k

@@ -1,4 +1,5 @@
-"""Renders what a camera of the scene shows in each frame of a recorded run, from the recorded poses.
+"""Renders the view of a camera of the scene for each frame of a recorded run. The view is computed from the recorded
+poses.
 
 No port of the robot gives this view, because the view shows the true places of the parts.
 """

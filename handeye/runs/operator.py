@@ -90,8 +90,8 @@ class Retry:
 
 @dataclass(frozen=True, slots=True)
 class UnwindOnce:
-    """Lets the arm undo its steps back to the beginning of the stage whose index is `stage`, once for each stage that
-    fails.
+    """Lets the arm undo its steps when a stage fails for the first time. The arm goes back to the beginning of the
+    stage with the index `stage` or, by default, of the stage that failed.
 
     Like `Retry`, this operator counts earlier attempts from the events of the run.
     """
