@@ -252,7 +252,7 @@ class _Words(_Source):
 
 
 class _Records(_Source):
-    """A table that is kept as a list of records. When a line of the table changes, a new record replaces the old one."""
+    """A table that is kept as a list of records. When a line changes, a new record replaces the old one."""
 
     def __init__(self, segment: Segment, memory: MutableRecord) -> None:
         self._segment, self._memory = segment, memory
