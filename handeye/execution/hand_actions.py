@@ -63,7 +63,7 @@ def _to_gap(run: ExecutionContext, goal: float) -> None:
 
 
 def close(run: ExecutionContext, operation: Close) -> Fault | None:
-    """Close the fingers until both finger switches are on, or until the gap is too small for any object. Then check
+    """Close the fingers until both finger switches close, or until the gap is too small for any object. Then check
     that the hand holds the expected object.
     """
     fault = _begin_to_close(run)

@@ -1,5 +1,5 @@
 """Firmware of a wrist, which scans the three components of force. While a component exceeds its threshold, the
-firmware keeps a signal active: the signal on the line to the motor microcomputer of this axis.
+signal line from the wrist to the motor microcomputer of this axis is active.
 """
 
 from collections.abc import Sequence
