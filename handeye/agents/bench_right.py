@@ -1,4 +1,4 @@
-"""What a right program does in a world of the agents' bench, and the referee's findings on a program."""
+"""States what a correct program does in a world of the agents' bench, and makes the referee's findings on a program."""
 
 from __future__ import annotations
 
@@ -90,7 +90,7 @@ class Measured(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=
 
 
 class Right(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """What a right program does in a world."""
+    """What a correct program does in a world."""
 
     stops: str = ""
     """If the work is impossible: a regular expression for the message with which a right program stops."""

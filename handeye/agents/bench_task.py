@@ -1,5 +1,5 @@
-"""The tasks of the agents' bench: each is a folder with a brief, files to begin with, worlds, a reference solution and
-a trivial one.
+"""The tasks of the agents' bench: each is a folder with a brief, the files that the agent is given, worlds, a
+reference solution and a trivial solution.
 """
 
 import re

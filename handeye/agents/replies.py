@@ -75,7 +75,9 @@ def on_plan(plan: Plan, stage: int | None) -> Reply:
 
 
 def on_world(task: str, quantities: Sequence[QuantityReport]) -> Reply:
-    """Reply with how each quantity varies between worlds. The reply never gives the value in one world."""
+    """Reply with how each quantity varies between worlds. The reply does not give the value of a quantity in any
+    single world.
+    """
     rows = [
         {
             "name": each.name,

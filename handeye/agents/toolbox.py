@@ -133,7 +133,7 @@ class Toolbox:
         return replies.on_run(name, run, _done(run.say("list")))
 
     def fork(self, asked: requests.Fork, call: Call) -> Reply:
-        """Begin a second run with the state of a run."""
+        """Begin a new run from the state of an existing run."""
         name, run = self.runs.fork(asked.run, asked.stage, asked.to, call)
         return replies.on_run(name, run, _done(run.say("list")))
 

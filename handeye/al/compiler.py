@@ -24,8 +24,8 @@ LANGUAGE: Final = "wave"  # name of the language in programs and plans: that of 
 
 
 def check_form(source: Source) -> list[Diagnostic]:
-    """Find the syntax errors of one text. The texts that it requires are read only for the names of their macros. The
-    errors of these texts are not reported.
+    """Find the syntax errors of one text. The texts that this text requires are read only to learn the names of their
+    macros. The errors of these required texts are not reported.
     """
     found = parse_whole(source)[1]
     lost = ("unknown-instruction",) if any(d.code in MISSING for d in found) else ()

@@ -21,7 +21,7 @@ NIL: Final = "NIL"  # dialect of 1977: no force or moment
 
 
 class OperandUnit(Record, frozen=True, kw_only=True):
-    """The unit of an operand, with its SI value."""
+    """The unit of an operand. `si` is the value of one such unit in SI units."""
 
     name: str
     si: float
@@ -52,7 +52,7 @@ class Refers(StrEnum):
 
 
 class Document(Enum):
-    """Where an instruction or an operand was found. `docs/sources.md` describes the documents."""
+    """The source from which an instruction or an operand is known. `docs/sources.md` describes the sources."""
 
     PAPER_1973 = "paper 1973"
     MANUAL_1973 = "manual 1973"

@@ -61,8 +61,8 @@ def elsewhere(word: str) -> str | None:
 
 
 def with_digits(text: str) -> str | None:
-    """Return the number that was meant by a text with letters in place of similar digits, such as `1O` for 10.
-    Returns None if the text is not such a number.
+    """Replace letters that look like digits, and return the number that was meant: 10 for the text `1O`. Returns None
+    if the text is not such a number.
     """
     right = text.translate(LOOKALIKES)
     return right if right != text and _PLAIN.fullmatch(right) else None

@@ -95,7 +95,7 @@ def _operands(statement: Statement) -> Operands:
 
 
 class _Modifiers(msgspec.Struct, frozen=True, kw_only=True):
-    """The settings that modifiers make for a motion."""
+    """The settings of a motion, as its modifiers give them."""
 
     guards: g.Guards = ()
     press: Vector3 | None = None

@@ -46,7 +46,7 @@ def takes(definition: Instruction, operand: Operand) -> str:
 
 
 def part(definition: Instruction) -> str:
-    """Describe the role of an instruction, with its origin."""
+    """Describe the role of an instruction and the document that the instruction comes from."""
     named = definition.role in (MOTION, MODIFIER, DECLARATION)
     role = definition.role.value if named else "instruction"
     said = _FOUND_IN[definition.document].format(role)

@@ -135,8 +135,8 @@ def used(parameter: Span) -> Label:
 
 
 def uses(operand: Operand) -> tuple[Label, ...]:
-    """Make a label for a diagnostic, at the parameter of a macro whose place the operand takes. Returns no label if
-    the operand takes the place of no parameter.
+    """Make a label for a diagnostic. The label marks the parameter of the macro that the operand replaces. Returns no
+    label if the operand does not replace a parameter.
     """
     return () if operand.use is None else (used(operand.use),)
 

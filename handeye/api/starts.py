@@ -114,8 +114,9 @@ def _is_kept(given: FileName) -> bool:
 
 
 def _kept(given: FileName, at: str | None, wanted: RunRequest) -> Checkpoint:
-    """Read a saved state: a checkpoint; the newest state in a folder; or, if a stage is given, the last state in the
-    folder before that stage. Raises InvalidInput if there is no such state.
+    """Read a saved state. If `given` is a checkpoint, that checkpoint is the state. If `given` is a folder, the state
+    is the newest in this folder or, with `at`, the newest before the stage `at`. Raises InvalidInput if there is no
+    such state.
     """
     path = given_file(given, "resume a run from a file or a folder")
     start = open_again(path)[1] if path.is_dir() else read_checkpoint(path)

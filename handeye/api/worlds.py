@@ -54,10 +54,10 @@ class World:
             seed: seed of the world, a whole number from 0 to 2^53 - 1.
             level: size of the errors: `low` is half of `nominal`, `high` is twice `nominal`.
             without: quantities and groups (`arm`, `arm.offset`, `arm.offset.3`) to leave at their nominal values.
-            set: values of quantities or of groups. A value is a number in the unit of the quantity, or a text with
-                a unit, such as `".3 in"`. If the name is that of a group, every quantity in the group gets the
-                value, each in its own unit: a number for `arm.friction` is in N m for revolute joints and in N for
-                the prismatic joint.
+            set: values of quantities or of groups. A value is a number in the unit of the quantity, or a text with a
+                unit, such as `".3 in"`. A value for a group applies to every quantity in the group, in the unit of
+                that quantity: a number for `arm.friction` is in N m for revolute joints and in N for the prismatic
+                joint.
             scale: a factor for each name of a quantity or group. The errors of the quantity or group are multiplied by
                 this factor, in addition to the level. `unsourced` stands for all errors for which no source gives a
                 size.

@@ -43,9 +43,9 @@ def external_wrench(J: Array, unexplained: Array) -> Array:
     """Estimate the external wrench on the hand that best explains a torque residual: force and moment at T in world
     axes, shape (6,), in N and N m.
 
-    The residual `unexplained` is M qdd + bias - torque, shape (n,). The estimate needs no wrist sensor, but joint
-    friction that the model lacks appears as force. An arm with fewer than six joints senses only the components
-    that its joints carry.
+    The residual `unexplained` is M qdd + bias - torque, shape (n,). The estimate needs no wrist sensor. But if the
+    model does not include all joint friction, the rest of the friction appears as force. An arm with fewer than six
+    joints senses only the components that its joints carry.
     """
     if J.shape[0] == J.shape[1]:
         return np.asarray(np.linalg.solve(J.T, unexplained), dtype=np.float64)

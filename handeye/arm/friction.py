@@ -1,10 +1,11 @@
 """The force that the hand senses in free air. This force comes from unknown joint friction and from the converter
 steps.
 
-The force estimate takes only the known part of joint friction into account. A joint at rest takes up any torque up
-to its Coulomb friction f_i, and a sliding joint takes up all of f_i. The estimate reports the torque residual tau
-as the wrench J^-T tau (statics, by virtual work: Paul 1981). The box of torques |tau_i| <= f_i is thus sensed as a
-polytope of wrenches. Along a unit vector u the polytope extends to the sum over the joints of |u J^-T_i f_i|.
+The force estimate takes only the known part of joint friction into account. In a joint at rest, friction takes up any
+torque up to the Coulomb friction f_i. In a sliding joint, it takes up exactly f_i. The estimate reports the torque
+residual tau as the wrench J^-T tau (statics, by virtual work: Paul 1981). The box of torques |tau_i| <= f_i is thus
+sensed as a polytope of wrenches. Along a unit vector u the polytope extends to the sum over the joints of |u J^-T_i
+f_i|.
 
 An arm that has measured its friction compensates the measured part. The arm senses the rest of the friction,
 `unknown_friction`, as a force during the whole motion. In addition, the steps of the converters are sensed as a force
@@ -44,8 +45,8 @@ def unknown_friction(arm: ArmModel, friction: Array) -> Array:
 
 
 def felt_friction(arm: ArmModel, q: Array, friction: Array) -> Array:
-    """Return the wrenches that are sensed because of the Coulomb friction (N m, N) of each joint: one column for
-    each joint, shape (6, n), in N and N m, in W.
+    """Return the wrench (N and N m, in W) that the hand appears to sense because of the friction of each joint, as
+    shape (6, n). Each column belongs to one joint. `friction` is the Coulomb friction of the joints (N m, or N).
     """
     return external_wrench(jacobian(arm, q), np.diag(friction))
 

@@ -113,9 +113,9 @@ def scattered(arm: ArmModel, M: Array, friction: Array, rates: Array) -> Scatter
     scatter is tolerable.
 
     The scatter is the median distance of the readings from their own median, so a single jerk, for example when a held
-    part slips, has no effect. A joint whose friction, shape (n,), in N m or N, is less than half a step of its torque
-    converter may swing at rest: its torque then alternates between two neighbouring steps. `M` is the mass matrix,
-    shape (n, n).
+    part slips, has no effect. A joint may swing at rest if its friction is less than half a step of its torque
+    converter: its torque then alternates between two neighbouring steps. `friction` has shape (n,), in N m or N. `M`
+    is the mass matrix, shape (n, n).
     """
     scatter = np.median(np.abs(rates - np.median(rates, axis=0)), axis=0)
     swing = np.diag(np.linalg.inv(M)) * torque_step(arm) / 2 * arm.servo.period
@@ -128,8 +128,8 @@ def scattered(arm: ArmModel, M: Array, friction: Array, rates: Array) -> Scatter
 
 @dataclass(slots=True, kw_only=True)
 class _SensorPair:
-    """Compares the two sensors of one joint from the start of a motion. The values are floats, which are faster than
-    arrays for the few joints of an arm.
+    """Compares the two sensors of one joint in each servo period of a motion. The values are floats, which are faster
+    than arrays for the few joints of an arm.
     """
 
     start: float  # potentiometer at the start
@@ -185,9 +185,9 @@ class JointAgreement:
         `unseen`, shape (n,), is how far the joints may have moved in this period in addition to what their rates show,
         because an object shifted in the fingers (see `thrown`).
 
-        While the rate changes evenly, the mean of two successive rates is the mean rate in between. While the rate
-        changes unevenly, for example when a casting breaks loose and strikes the joint, the motion in between is
-        unknown. The unknown parts of different periods are independent, so their squares are added.
+        While the rate changes evenly, the mean of two successive rates is the mean rate of the period between them.
+        While the rate changes unevenly, for example when a casting breaks loose and strikes the joint, the motion in
+        between is unknown. The unknown parts of different periods are independent, so their squares are added.
         """
         self._pairs = self._pairs or self._begun()
         if unseen is not None:
@@ -230,8 +230,8 @@ def jumped(
     before and after this period. Returns None if all agree.
 
     A reading that jumps is detected at once, whatever the arm does. `blow` gives the changes of rate that a blow on
-    the hand may have caused within the period (see `blown`). `throw` is how far an object that shifted in the fingers
-    may have moved the joints (see `thrown`). All arrays have shape (n,).
+    the hand may have caused within the period (see `blown`). `throw` is how far the joints may have moved because an
+    object shifted in the fingers (see `thrown`). All arrays have shape (n,).
     """
     half, change = arm.servo.period / 2, np.abs(after - before)
     gone = (before + after) * half
@@ -253,9 +253,9 @@ def blown(here: Dynamics, impulse: Array) -> Array:
     the joint was stopped again within the same servo period.
 
     `impulse`, shape (n,), N m s and N s, is the part of the change of momentum that the drives, the weight and the
-    friction of the arm do not explain. This part gives the impulse and the angular impulse on the hand. The directions
-    of both impulses may have changed within the period, so each impulse may have acted on each joint in the worst
-    direction.
+    friction of the arm do not explain. The impulse and the angular impulse on the hand are computed from this part.
+    The directions of both impulses may have changed within the period, so each impulse may have acted on each joint in
+    the worst direction.
     """
     wrench = np.linalg.lstsq(here.J.T, impulse, rcond=SINGULAR)[0]
     force, moment = np.linalg.norm(wrench[:3]), np.linalg.norm(wrench[3:])

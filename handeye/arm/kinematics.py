@@ -41,8 +41,8 @@ def link_rotations(angle: Array, cos_alpha: Array, sin_alpha: Array) -> Array:
 
 
 def point_jacobian(arm: ArmModel, R: Array, p: Array, points: Array) -> tuple[Array, Array]:
-    """Compute the Jacobians of points in W, shape (..., m, 3), that move with the hand, beyond all joints of the
-    chain `R`, `p`.
+    """Compute the Jacobians of points that move with the hand. `points`, shape (..., m, 3), gives their places in W.
+    The points are beyond all joints of the chain `R`, `p`.
 
     Returns the velocity of each point per joint rate, shape (..., m, n, 3), and the angular velocity per joint
     rate, shape (..., n, 3).
@@ -70,9 +70,9 @@ def centripetal(
     """Compute the accelerations of points, shape (..., m, 3), and of the links to which these points belong. The joint
     rates are `qd`; the joint accelerations are zero.
 
-    Point k is fixed in link `links[k]`, counted from 0; `linear`, shape (..., m, n, 3), are the velocities of the
-    points per joint rate, zero for joints that do not move the link. Returns linear accelerations and angular
-    accelerations, each of shape (..., m, 3).
+    Point k is fixed in link `links[k]`, counted from 0. `linear`, shape (..., m, n, 3), has the velocity of each point
+    per unit rate of each joint. This velocity is zero for the joints that do not move the point's link. Returns linear
+    accelerations and angular accelerations, each of shape (..., m, 3).
     """
     k = constants(arm)
     prismatic = k.prismatic[:, None]

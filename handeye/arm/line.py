@@ -65,7 +65,8 @@ def pivot(arm: ArmModel, q_start: Array, turn: Array, speed: float, ramp: float 
     """Plan a turn of the hand about its tool point. Returns the set-points of the motion, or the reason why the motion
     is impossible.
 
-    The motion covers the rotation vector `turn` (rad, in W, shape (3,)) and cruises at up to `speed` (rad/s).
+    `turn`, shape (3,), is the rotation vector of the whole motion (rad, in W). `speed` is the greatest speed of the
+    turn (rad/s).
     """
     angle = float(np.linalg.norm(turn))
     s, sd, sdd = _profile(angle, speed, ramp, arm.servo.period)
@@ -138,7 +139,7 @@ def jog(arm: ArmModel, q: Array, joint: int, goal: float, *, speed: float) -> Sa
     """Plan a smooth motion of one joint, given by its index from 0, to a goal (rad or m). Returns the set-points of
     the motion, or the reason why the motion is impossible.
 
-    `speed` is a fraction of the joint's rate limit; the acceleration is scaled by its square.
+    `speed` is a fraction of the joint's rate limit. The acceleration limit is multiplied by the square of `speed`.
     """
     if arm.joints[joint].name in arm.held:
         return IKResult(reason=HeldJoint(joint, arm.held[arm.joints[joint].name]))

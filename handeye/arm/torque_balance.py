@@ -4,11 +4,12 @@ arm in successive motions.
 In a motion through free air from rest to rest, the mean torque of a joint should be its weight torque plus the
 measured friction. Any remaining torque is due to errors of masses, mass centres and drives. These errors are constant,
 so each motion refines their estimate, until almost no torque remains unexplained in a motion at a new posture. The
-method is recursive least squares with a prior (Gauss); the prior is the uncertainty after the arm has weighed itself,
-computed for errors of twice their stated size. If a torque remains unexplained in a later motion, a drive has changed.
-Measured in three worlds, one of them with errors of the level `high`: over the table, joint 2 of the Stanford arm has
-a weight torque of 18 N m, and the estimate of this torque is right to within .27 N m. Joint 3 carries a weight of 5 to
-20 N, and the estimate of this weight is right to within .6 N. A joint that carries no weight gives no information.
+method is recursive least squares with a prior (Gauss); the prior is the uncertainty that remains after the arm has
+weighed itself. This uncertainty is computed for twice the usual errors of masses, mass centres and drives. If a torque
+remains unexplained in a later motion, a drive has changed. Measured in three worlds, one of them with errors of the
+level `high`: over the table, joint 2 of the Stanford arm has a weight torque of 18 N m, and the estimate of this
+torque is right to within .27 N m. Joint 3 carries a weight of 5 to 20 N, and the estimate of this weight is right to
+within .6 N. A joint that carries no weight gives no information.
 """
 
 from collections.abc import Sequence
@@ -133,8 +134,8 @@ def _model(arm: ArmModel, postures: Array) -> tuple[Array, Array]:
 
 
 def _learnt(belief: Array, H: Array, weight: Array, noise: Array, spare: Array | None = None) -> Array:
-    """Update an estimate with the joint torques that the model does not explain (zero by default). Each torque has a
-    noise variance.
+    """Update an estimate with the joint torques `spare`, which the model does not explain; by default, these torques
+    are zero. `noise` is the variance of each torque.
     """
     mean, spread = belief[:, 0], belief[:, 1:]
     for j, h in enumerate(H):

@@ -77,8 +77,8 @@ def move(
     arm: ArmModel, q_start: Array, X_WT_goal: Pose, *,
     via: Sequence[Array] = (), departure: float = 3 * INCH, approach: float = 3 * INCH, speed: float = 1.0,
 ) -> Trajectory | IKResult:  # fmt: skip
-    """Plan the free motion to a hand pose on the nearest branch. The motion lasts a whole number of servo periods.
-    Returns the trajectory, or the reason why the motion is impossible.
+    """Plan the free motion to a hand pose. The motion ends on the nearest branch of the solutions for this pose. The
+    motion lasts a whole number of servo periods. Returns the trajectory, or the reason why the motion is impossible.
 
     The motion passes through the configurations in `via` without stopping. `departure` and `approach` are the heights
     (m) of the lift-off point above the start and of the set-down point above the goal; a height of 0 leaves the point
@@ -140,8 +140,8 @@ def _quickest(arm: ArmModel, knots: Array, speed: float) -> Trajectory:
 
 
 def _stretch(arm: ArmModel, knots: Array, times: Array) -> Array:
-    """Return the factors on segment times (..., 3) that bring speeds and accelerations just within the limits,
-    shape (...).
+    """Return the factors, shape (...), by which the segment times (..., 3) must be multiplied so that all speeds and
+    accelerations are just within the limits.
     """
     k = constants(arm)
     coefficients = _coefficients(knots, times)

@@ -58,8 +58,8 @@ class Bench(Clock, Mechanism[BenchTime]):
         self.before_step: list[Callable[[], None]] = []  # called before every physics step
         self.after_step: list[Callable[[], None]] = []
         self.before_period: list[Callable[[], None]] = []
-        """Functions called before time passes. They are called at least every 1/60 s, except while all bodies are
-        asleep.
+        """Functions called before each advance of the simulated time. An advance lasts at most 1/60 s, except while
+        all bodies are asleep.
         """
         self.after_period: list[Callable[[], None]] = []
         self.handlers: dict[str, Callable[[], None]] = {}  # handlers of events, by name
@@ -143,14 +143,14 @@ class Bench(Clock, Mechanism[BenchTime]):
         return max(self._before_event(), 1) * self.tick if self._due else None
 
     def _before_event(self) -> int:
-        """Return the number of physics steps before the next event is handled, or a number that is never reached if
-        no event is pending.
+        """Return the number of physics steps before the next event is handled. If no event is pending, return a number
+        that is never reached.
         """
         return self._step_of(self._due[0]) - self._steps if self._due else _LATEST
 
     def _step_of(self, due: Due) -> int:
-        """Return the number of the physics step before which an event is handled: the first step that begins at the
-        time of the event or later.
+        """An event is handled before the first physics step that begins at the time of the event or later. Return the
+        number of this step.
         """
         return math.ceil(due.microseconds / (MICROSECONDS * self._tick))
 
@@ -165,8 +165,8 @@ class Bench(Clock, Mechanism[BenchTime]):
         )
 
     def _pass(self, most: int) -> None:
-        """Let physics steps pass, at most `most` of them. If all bodies sleep, let all these steps pass at once. If
-        not, let only `_stretch` steps pass.
+        """Advance by at most `most` physics steps. If all bodies sleep, skip all these steps at once. If a body is
+        awake, simulate at most `_stretch` steps.
         """
         steps = min(most, self._stretch)
         for part in self._parts:

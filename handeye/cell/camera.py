@@ -61,7 +61,8 @@ class SimulatedCamera(Mechanism[CameraState], TvCamera):
         drawing: CameraModel,
         lines: SignalLines = SOUND,
     ) -> None:
-        """Make a camera that takes pictures of the state `data`, which the camera never changes.
+        """Make a camera that takes pictures of the simulated scene in its state `data`. The camera never changes
+        `data`.
 
         `rng` generates the noise of tube and mount. The signal lines are `picture`, `turret` (the commanded focal
         length, m), and `camera.pan` and `camera.tilt` (the true angles of the mount, rad).

@@ -59,7 +59,7 @@ class Carriers:
             self._show(hole, there=False)
 
     def friction_of(self, hole: int) -> int:
-        """Return the degree of freedom that has the friction of the thread in a hole."""
+        """Return the index of the degree of freedom in which the thread of a hole has its friction."""
         return int(self._model.jnt_dofadr[self._turn[hole]])
 
     def depth(self, hole: int) -> float:

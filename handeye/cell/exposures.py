@@ -77,9 +77,9 @@ class Lens:
         )
 
     def aim(self, scene: mujoco.MjvScene, at: Array, shift: Array) -> None:
-        """Look through one point of the lens. `at`, shape (2,), gives the distances of this point from the centre, to
-        the right and up, in radii of the lens. The focus stays unchanged, and the picture is shifted by `shift`
-        (points, shape (2,)).
+        """Look through one point of the lens. `at`, shape (2,), says how far this point lies to the right of the
+        centre of the lens, and how far above it, in radii of the lens. The focus stays unchanged, and the picture is
+        shifted by `shift` (points, shape (2,)).
         """
         right = np.cross(self.forward, self.up)
         aside = APERTURE * at
@@ -190,8 +190,8 @@ def fine_photograph(
 
 
 def _exposures(number: int) -> Iterator[_Exposure]:
-    """Yield exposures, always the same ones, spread evenly over the lens, the lamp, the sky and the pixel. The points
-    of the lens, of the lamp, of the sky and of the pixel are taken in different orders.
+    """Yield exposures, always the same ones, spread evenly over the lens, the lamp, the sky and the pixel. Lens, lamp,
+    sky and pixel each have their own order of points.
     """
     k, order = np.arange(number), np.random.default_rng(_SEED)
     radius, angle = np.sqrt((k + 0.5) / number), _TURN * k

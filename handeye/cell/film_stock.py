@@ -26,7 +26,7 @@ class FilmStock:
     """Converts light to screen values from 0 to 1; both have shape (height, width, 3)."""
 
     def develop(self, light: Array) -> NDArray[np.uint8]:
-        """Make the photograph from light of shape (height, width, 3), in which 1 is white."""
+        """Make the photograph from the light on each point, shape (height, width, 3). White has the value 1."""
         y, x = (np.linspace(-1, 1, side) for side in light.shape[:2])
         values = self.developed(light * (1 - _VIGNETTE * np.add.outer(y**2, x**2))[..., None])
         return np.asarray(np.rint(255 * np.clip(values, 0, 1)), dtype=np.uint8)

@@ -13,8 +13,8 @@ HINGE: Final = mujoco.mjtJoint.mjJNT_HINGE
 
 
 def add_keyframe(spec: mujoco.MjSpec, name: str, data: mujoco.MjData, elsewhere: Mapping[str, Pose]) -> None:
-    """Set the bodies of a scene as they are in the simulation, and store their state as the last keyframe of the
-    scene. The scene may lack some bodies of the simulation.
+    """Give the bodies of a scene the poses that they have in the simulation, and store the state of the bodies as the
+    last keyframe of the scene. The scene may lack some bodies of the simulation.
 
     The initial state of the scene is set as well, so that a viewer that loads no keyframe shows the same state.
     `elsewhere` gives the poses `X_WP` of free bodies that are to rest at another place than in the simulation.
@@ -40,7 +40,9 @@ def body_pose(data: mujoco.MjData, name: str) -> Pose:
 
 
 def _stand(body: mujoco.MjsBody, data: mujoco.MjData, elsewhere: Pose | None) -> None:
-    """Set the pose of a body with joints. The present positions of the body's joints become their initial positions."""
+    """Set the pose of a body that has joints. The present positions of the body's joints become their initial
+    positions.
+    """
     X_WP = body_pose(data, body.name) if elsewhere is None else elsewhere
     X = inverse(body_pose(data, body.parent.name)) @ X_WP
     body.pos = X[:3, 3]

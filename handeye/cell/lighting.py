@@ -101,7 +101,9 @@ class Lighting:
         light.castshadow = 0
 
     def throw_once(self, scene: mujoco.MjvScene, model: mujoco.MjModel) -> None:
-        """Light a scene from the middle of the lamp and of the sky. The sky casts no shadows."""
+        """Light a scene from two points: the middle of the lamp, and the middle of the sky. The light from the sky
+        casts no shadows.
+        """
         middle = np.zeros(2)
         self.throw(scene, model, middle, middle, middle)
         scene.lights[1].castshadow = 0

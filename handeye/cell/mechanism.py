@@ -25,7 +25,9 @@ def scene_for(what: str) -> Iterator[None]:
 
 
 class Mechanism(ABC, Generic[S]):
-    """A part of a cell that acts on the simulator before time passes, and may read the simulator afterwards."""
+    """A part of a cell that acts on the simulator before each advance of the simulated time, and may read the
+    simulator afterwards.
+    """
 
     name: str  # by which its state is found
     kind: type[S]  # the type of its state

@@ -27,7 +27,7 @@ _DIGITS: Final = 10  # decimals of a vertex, in m: finer than the single precisi
 
 def mjcf_files(spec: mujoco.MjSpec, mark: str, told: Mapping[str, str]) -> dict[str, bytes]:
     """Return the content of each file of a scene; the keys are the names of the files in their folder. Raises Refused
-    if this MuJoCo cannot write numbers in full precision.
+    if the installed version of MuJoCo cannot write numbers in full precision.
 
     The specification is changed, because its meshes and textures become files. `mark` is a comment in the first
     line of the XML. `told` holds the texts of the element `<custom>`, by name.

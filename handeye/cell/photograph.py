@@ -78,7 +78,7 @@ class Photographer:
         return self._scene
 
     def exposed(self) -> Photograph:
-        """Take the photograph of the view that was last aimed at."""
+        """Take the photograph of the view for which `aimed` was last called."""
         self._draw()
         rgb = np.zeros((self._viewport.height, self._viewport.width, 3), dtype=np.uint8)
         mujoco.mjr_readPixels(rgb, None, self._viewport, self._drawing)

@@ -4,8 +4,8 @@ most of these other contacts are computed in middle steps instead of short steps
 
 Contacts need short steps, because their softness grows with the square of the length of the step. Free motion does not
 need short steps: with long steps it has the same speeds, but is early by 1.6 ms, half of the difference between a long
-step and a short step. Brakes and dry friction of joints are constraints too. A joint held by friction creeps at up to
-9e-6 rad/s with long steps, and at up to 4e-6 rad/s with short steps.
+step and a short step. Brakes and dry friction of joints are constraints, as contacts are, but may be computed in long
+steps. A joint held by friction creeps at up to 9e-6 rad/s with long steps, and at up to 4e-6 rad/s with short steps.
 
 A part that is carried through the air touches only the bodies that hold it. While the part has only these contacts,
 steps may be long too, if the task names the pairs of bodies that touch. In long steps these contacts are made stiffer,
@@ -13,10 +13,10 @@ so that a part sinks as deep into the fingers as in short steps (`stiffened`). C
 long steps. If a finger that presses with 80 N lost its contact with the part in a long step, the finger would move 1.5
 mm into the part before the next step detected the contact, and would throw the part away.
 
-In middle steps all contacts and couplings are made stiffer in the same way, so a change of the length of the step
-changes no force at rest. All contacts except those of the hand may begin and end in middle steps. The task names the
-*delicate* contacts, which need short steps, and the joints that must be at rest in middle steps. For example, a screw
-that is tightened in middle steps clamps with less force than a screw that is tightened in short steps.
+In middle steps, all contacts and couplings are made stiffer in the same way. The forces between bodies at rest are
+therefore the same in short and in middle steps. All contacts except those of the hand may begin and end in middle
+steps. The task names the *delicate* contacts, which need short steps, and the joints that must be at rest in middle
+steps. A screw, for example, is tightened in short steps, because in middle steps it would clamp with less force.
 
 If a part is crushed, for example between a fixture and a hand that runs into it, the computation may diverge in
 short steps. The interval of this step is then computed again in fine steps.
@@ -30,7 +30,7 @@ Euler's method moves the joints, and with them the hand, along an arc, but a fre
 body, Euler's method thus leaves out the second-order term of the motion: half the acceleration times the square of the
 step. After long steps this term is therefore added to carried bodies; it is a few micrometres in a servo period. The
 term does not stop a part that slips in the fingers, because only friction holds the part. Short steps leave the term
-out. With the term, a held part creeps less than in short steps.
+out. A held part therefore creeps less in long steps than in short steps.
 
 MuJoCo puts a tree of bodies to sleep when the tree, and everything it touches, has hardly moved for ten steps. MuJoCo
 wakes a sleeping tree when an awake body touches the tree, but not when a motor receives a new command. Code that
@@ -182,8 +182,9 @@ class PhysicsStepper:
         }
 
     def _marked(self, pairs: Iterable[tuple[str, ...]]) -> NDArray[np.bool_]:
-        """Return a symmetric table that marks the pairs of trees to which the named bodies belong. If only one body is
-        named, all pairs with its tree are marked. The last row is for bodies fixed in the world.
+        """Return a symmetric table of pairs of trees. For each pair of named bodies, the pair of their trees is
+        marked. If only one body is named, all pairs with its tree are marked. The last row is for bodies fixed in the
+        world.
         """
         model = self._model
         table = np.zeros((model.ntree + 1, model.ntree + 1), dtype=bool)
@@ -247,7 +248,9 @@ class PhysicsStepper:
         )
 
     def _allowed_by(self, pairs: BodyPairs) -> _Contacts:
-        """Judge contacts by the pairs of bodies that touch, because many sets of contacts have the same pairs."""
+        """Judge which steps are allowed while these pairs of bodies touch. The result depends only on the pairs, and
+        many sets of contacts have the same pairs.
+        """
         bodies = np.array(sorted(pairs), dtype=np.intp).reshape(-1, 2)
         first, second = self._model.body_treeid[bodies].T
         carried = bool(self._carried[first, second].all())
@@ -296,8 +299,8 @@ class PhysicsStepper:
         allowed: Callable[[], bool],
         at_the_end: Callable[[], bool] = lambda: True,
     ) -> bool:
-        """Make steps that are longer than a short step by the factor `times`, and that together cover the time of
-        `steps` short steps. If the contacts of a step are not allowed, undo all steps and return False.
+        """Replace `steps` short steps by fewer long steps. A long step is `times` times as long as a short step. If
+        the contacts of a step are not allowed, undo all steps and return False.
         """
         model, data, began = self._model, self._data, self._data.time
         for kept, values in zip(self._kept, self._moves, strict=True):
@@ -367,7 +370,7 @@ _POLICY: Final = {
 
 
 def allow(model: mujoco.MjModel, tree: int, *, allowed: bool = True) -> None:
-    """Allow a tree of bodies with motors to sleep, or keep it awake."""
+    """Allow the simulator to put a tree of bodies to sleep, or keep the tree awake. The tree has motors."""
     model.tree_sleep_policy[tree] = _POLICY[allowed]
 
 
@@ -385,7 +388,7 @@ def wake_all(data: mujoco.MjData, dofs: NDArray[np.int_]) -> None:
 def let_rest(model: mujoco.MjModel, data: mujoco.MjData) -> None:
     """Let each tree of bodies without any velocity fall asleep after one step, if it is still at rest then.
 
-    MuJoCo sets the velocities of a sleeping tree to zero, so a tree without any velocity has slept before.
+    MuJoCo sets the velocities of a sleeping tree to zero, so a tree without any velocity was asleep until now.
     """
     resting = np.ones(model.ntree, dtype=bool)
     resting[model.dof_treeid[data.qvel != 0.0]] = False

@@ -23,8 +23,8 @@ _SAMPLES: Final = (np.indices((FINE, FINE)).reshape(2, -1).T[:, ::-1] + 0.5) / F
 
 
 class RayRenderer(SceneRenderer):
-    """Casts a ray for every sample. From the point that this ray hits, casts a ray to every light, to find the
-    shadows. Needs no OpenGL.
+    """Casts a ray for every sample. To find the shadows, the renderer then casts a ray from the point that this ray
+    hits to every light. Needs no OpenGL.
 
     A picture point has one sample, or four if it lies where the picture changes: at edges of solids and of shadows
     (adaptive sampling after T. Whitted, "An improved illumination model for shaded display", 1980).
@@ -116,7 +116,7 @@ def cast(
 
 
 def _edges(geom: NDArray[np.int32], luminance: Array) -> NDArray[np.bool_]:
-    """Return an array in the shape of the picture. The array is True where the picture changes: at both points of each
+    """Return a mask in the shape of the picture. The mask is True at the edges in the picture: at both points of each
     pair of neighbours whose geoms or luminances differ.
     """
     rough = np.zeros(geom.shape, dtype=bool)

@@ -57,8 +57,8 @@ class PictureMaker(Protocol):
     """Computes the light on the target of the television camera. A caller may supply a picture maker."""
 
     def render(self, data: mujoco.MjData, view: View, /) -> ArrayLike:
-        """Compute the light on the target, shape (256, 333), in which 1 is a white surface in full light. `data` is
-        a copy of the state of the scene.
+        """Compute the light on each point of the target, shape (256, 333). A white surface in full light has the value
+        1. `data` is a copy of the state of the scene.
         """
 
 

@@ -65,8 +65,8 @@ class SignalLinesState(Record, frozen=True, kw_only=True):
 
 
 class SignalLines(Mechanism[SignalLinesState]):
-    """The signal lines of a cell. If a line has several defects, each acts on the values that the defect before it
-    passes on.
+    """The signal lines of a cell. If a line has several defects, they act one after another: the first defect changes
+    the values of the line, and each further defect changes the values that result.
     """
 
     name = "lines"

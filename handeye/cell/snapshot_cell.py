@@ -69,8 +69,8 @@ class SnapshotCell:
         )
 
     def restore(self, state: CellState) -> None:
-        """Restore the cell to a state. What the cell does from this state on is always identical, byte for byte, no
-        matter what the cell did before it was restored.
+        """Restore the cell to a state. Whatever the cell did before, it takes the same course from this state on, byte
+        for byte.
 
         Sleep is not part of a state: when a state is restored, all bodies wake, and then the bodies at rest fall
         asleep again. If an interrupted run is to equal an uninterrupted run, the cell must therefore restore its own

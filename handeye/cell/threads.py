@@ -7,9 +7,9 @@ enough; the screw turns clockwise; and its angle matches the phase of the thread
 out of sight, and the carrier takes its place. A screw that enters at an angle cuts its own thread, stays at that
 angle, and jams before it is seated. Once the carrier has taken the place of the screw, the physics computes all that
 follows: the shank touches the holes of the parts above, the head touches the part beneath, and friction grows with the
-clamp force. The motor turns the carrier against the body of the driver, so the bodies that hold the driver and the
-tapped part carry the torque. A screw that is turned back to the place where its thread began is loose again. The
-limits of the model are in scenes/water_pump/README.md.
+clamp force. The motor turns the carrier against the body of the driver, so the torque acts on the body that holds the
+driver, and on the tapped part. A screw that is turned back to the place where its thread began is loose again.
+scenes/water_pump/README.md lists the simplifications of this model.
 
 In a scene with screws, the screws are numbered from 0, and the scene uses the following names. Each screw is a free
 body `screw0`, whose origin is the point of the screw, with a geom `screw_head0` and a site `park0` out of sight. Each
@@ -352,7 +352,7 @@ class Threads(Mechanism[ThreadsState]):
         return min(RUNNING_TORQUE + self._figures.friction * THREAD_RADIUS * thread.clamp, CROSSED_TORQUE)
 
     def write(self, holes: tuple[Thread, ...], model: mujoco.MjModel) -> None:
-        """Apply thread states to a model of this scene that is in its initial state."""
+        """Apply thread states to a model of this scene. The model must be in its initial state."""
         for hole, thread in enumerate(holes):
             self._carriers.meet(hole, model, there=thread.screw is not None)
             if thread.screw is not None:

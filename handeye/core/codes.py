@@ -11,7 +11,9 @@ Severity = Literal["error", "warning"]
 
 
 class Code(Record, frozen=True, kw_only=True):
-    """A kind of diagnostic, with an example text that causes it and the files that this text requires."""
+    """A kind of diagnostic. It has an example text that causes the diagnostic. `required` holds the files that this
+    text requires.
+    """
 
     severity: Severity
     meaning: str

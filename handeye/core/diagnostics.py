@@ -150,8 +150,8 @@ def alternatives(name: str, known: Iterable[str]) -> SimilarName | KnownNames | 
 
 
 def suggestion(name: str, known: Iterable[str]) -> str | None:
-    """Write a hint for an unknown name: `did you mean ...?` or `known: ...`. Returns None if no known name is
-    similar and there are too many to list.
+    """Write a hint for an unknown name: `did you mean ...?` or `known: ...`. Returns None if no known name is similar,
+    and there are too many known names to list.
     """
     return names_sentence(alternatives(name, known))
 

@@ -29,14 +29,14 @@ class Distribution(ABC):
         """Draw a value; `nominal` is the value without error."""
 
     def standard(self, rng: np.random.Generator) -> float | None:
-        """Draw the standard normal number for which `at` returns the value that `draw` would return. Returns None if
-        the value is the same in every world.
+        """Draw a standard normal number. For this number, `at` returns the value that `draw` would return. Returns
+        None if the value is the same in every world.
         """
         return None
 
     def at(self, number: float, nominal: float) -> float:
-        """Return the value that belongs to a standard normal number. Numbers that are normally distributed give
-        values of this distribution; 0 gives the middle.
+        """Convert a standard normal number to a value. If `number` is normally distributed, the value has this
+        distribution. A number of 0 gives the middle of the distribution.
         """
         raise NotImplementedError
 

@@ -153,8 +153,8 @@ def entry_named(name: str) -> Entry:
 
 
 def loaded(place: str, what: str = "") -> Any:
-    """Import the object at `module:NAME`. Raises BadFile if the object cannot be imported; `what` precedes the
-    location in the error message.
+    """Import the object at `module:NAME`. Raises BadFile if the object cannot be imported. The error message begins
+    with the text `what`, which the location follows.
     """
     module, _, name = place.partition(":")
     try:

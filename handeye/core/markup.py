@@ -51,8 +51,8 @@ def joined(pieces: Iterable[str], between: str = "") -> Markup:
 
 
 def lines(rows: Iterable[str]) -> Markup:
-    """Build a text whose lines stay as they are. The text can be reached with the keyboard, because it scrolls in a
-    narrow window.
+    """Build a text whose lines are not wrapped. In a narrow window, the user scrolls the text, so the text can be
+    selected with the Tab key.
     """
     return element("pre", joined(rows, Markup("\n")), tabindex="0")
 

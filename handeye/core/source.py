@@ -60,13 +60,15 @@ class Source:
         return self.texts[number], offset - self._begins[number]
 
     def marked(self, span: Span) -> str:
-        """Return the characters in a span, whose offsets are as in `find`. The span must lie within one text."""
+        """Return the characters in a span. As in `find`, the offsets of the span run through this text and then
+        through the texts that it requires. The span must lie within one text.
+        """
         text, start = self.find(span.start)
         return text.text[start : start + span.end - span.start]
 
     @cached_property
     def begins(self) -> dict[str, int]:
-        """Offset (as in `find`) at which each text begins, by key of the text."""
+        """Offset, counted as in `find`, at which each text begins, by key of the text."""
         return {text.key: begin for text, begin in zip(self.texts, self._begins, strict=True)}
 
     @cached_property

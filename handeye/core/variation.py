@@ -185,8 +185,8 @@ class Variation:
         a quantity nor a group has that name.
 
         Args:
-            values: values set in the world (SI). Quantities that a world with these values does not have are left out.
-                If `values` is None, the quantities of all worlds are taken.
+            values: values set in the world (SI). If a world with these values lacks a quantity, the result lacks this
+                quantity too. If `values` is None, the quantities of all worlds are taken.
         """
         found = tuple(q for q in self.quantities.values() if within(q.name, name))
         there = [q for q in found if values is None or self._is_there(q, values)]

@@ -84,7 +84,7 @@ def read_episode(run: Path, number: int) -> tuple[Trace, Episode]:
 
 
 def outcome_of(result: Result) -> EpisodeOutcome:
-    """Return the outcome of a run as a data set marks it."""
+    """Return the word with which a data set describes the outcome of a run."""
     if not result.completed:
         return "stopped"
     if result.assembled is None:

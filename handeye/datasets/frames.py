@@ -94,8 +94,8 @@ def frames_of(trace: Trace) -> Frames:
 
 
 def _windows(times: Array, moments: Array) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Return the indices of the last and of the first reading of each frame. A frame without a reading keeps the last
-    reading before it.
+    """Return two arrays: for each frame, the index of its last reading, and the index of its first reading. A frame
+    without a reading keeps the last reading before the frame.
     """
     end = np.searchsorted(times, moments + CLOCKS)
     begin = np.concatenate([[0], end[:-1]])

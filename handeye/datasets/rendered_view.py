@@ -1,4 +1,5 @@
-"""Renders what a camera of the scene shows in each frame of a recorded run, from the recorded poses.
+"""Renders the view of a camera of the scene for each frame of a recorded run. The view is computed from the recorded
+poses.
 
 No port of the robot gives this view, because the view shows the true places of the parts.
 """
@@ -19,11 +20,12 @@ _FINER: Final = 2  # drawn points per point of the view along a side
 
 
 def rendered_view(trace: Trace, camera: str, times: Array) -> Iterator[Photograph]:
-    """Yield the view at each of some moments (s, ascending), shape (240, 320, 3), without shadows. A moment before the
-    recording shows the first recorded state, and a moment after the recording shows the last one.
+    """Yield the picture that a camera of the scene gives at each of `times` (s, ascending). A picture has the shape
+    (240, 320, 3) and shows no shadows. For a time before the recording, the picture shows the first recorded state.
+    For a time after the recording, the picture shows the last recorded state.
 
-        A view is drawn only when a body has moved. Otherwise, the previous view is repeated, so a clock on the wall
-    shows the time of the last motion.
+    A view is drawn only when a body has moved. At all other times, the previous view is repeated, so a clock on the
+    wall shows the time of the last motion.
 
     Raises:
         InvalidInput: the scene has no such camera, or OpenGL cannot be used.

@@ -1,1 +1,1 @@
-"""The stepper, with which users step through runs with commands, breakpoints and views."""
+"""The stepper. Users step through a run with it, set breakpoints, and view the state of the run."""

@@ -22,8 +22,8 @@ _ERROR: Final = re.compile(r"error\s*:\s*(?P<any>.*)|error\s+(?P<number>\d+)", r
 
 
 def breakpoint(text: str, listing: Listing) -> AnyStop:
-    """Return the breakpoint that a text names. Raises InvalidInput if there is no such place, or if no step can
-    raise that error.
+    """Return the breakpoint that a text names. Raises InvalidInput if the program has no such place, or if the text
+    names an error that no step can raise.
 
     The text names an error (`error:23`), a label, or a stage (by its name or a part of the name). A line of the
     source, such as `12` or `pins.al:3`, means the first step on the line or after it. An instruction word means every

@@ -33,7 +33,7 @@ class Stepper:
         keep: Callable[[Checkpoint], Path | None] = lambda _: None,
         pictures: Path | None = None,
     ) -> None:
-        """Take control of a run, like `DebugSession`. Raises InvalidInput if one of `breaks` does not name a
+        """Take control of a run, as `DebugSession` does. Raises InvalidInput if one of `breaks` does not name a
         place."""
         self.session = DebugSession(runner, stops=stops, kept=kept, keep=keep, pictures=pictures)
         for text in breaks:

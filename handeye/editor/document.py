@@ -90,7 +90,7 @@ class Document:
         return self.taught.parts.keys() if kind == PART else ()
 
     def macro_at(self, offset: int) -> MacroBody | None:
-        """Return the macro of the script that contains an offset, or None if no macro contains it."""
+        """Return the macro in whose lines an offset lies, or None if the offset is not in a macro of the script."""
         line = self.line_at(offset)
         return next((macro for macro in self._own_macros.values() if line in macro.lines), None)
 

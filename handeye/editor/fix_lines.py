@@ -120,7 +120,9 @@ def close_up(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
 
 
 def begin_search(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
-    """Yield a fix that inserts a SEARCH, with the step of 1973, before the label to which an AOJ jumps."""
+    """Yield a fix that inserts a SEARCH before the label to which an AOJ jumps. The SEARCH has the search step that
+    the program of 1973 used.
+    """
     line = line_of(document, diagnostic)
     label = next(
         (n for n in document.names if n.kind == LABEL and line.start <= n.span.start < line.end), None

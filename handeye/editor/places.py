@@ -26,7 +26,9 @@ class OperandToken:
 
 
 def instruction(line: Line) -> tuple[Instruction | None, tuple[Token, ...]]:
-    """Return two values: the instruction of a line, or None; and its tokens from the instruction word on."""
+    """Return the instruction of a line, or None if the line has no known instruction. Also return the tokens of the
+    line from the instruction word on.
+    """
     tokens = line.split()[1]
     known = bool(tokens) and tokens[0].kind is TokenKind.NAME
     return (INSTRUCTIONS.get(tokens[0].text.upper()) if known else None), tokens

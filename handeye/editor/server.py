@@ -115,7 +115,7 @@ _SYMBOLS: Final = {
 
 
 def serve() -> None:
-    """Answer requests from standard input on standard output until the client ends the session."""
+    """Read requests from standard input, and write answers to standard output, until the client ends the session."""
     log_in_lines()
     make_server().start_io()
 

@@ -30,8 +30,9 @@ _PASSED_OVER: Final = 20  # worlds in a row in which no episode can start
 class AssemblyEnv(gymnasium.Env[Observation, Array]):
     """A job in the work cell. Each episode takes place in a world of its own.
 
-    The policy sees what a program in the cell sees: the readings of the sensors. The last component of the
-    action says that the work is done; then, or at the time limit, the referee judges the true state of the cell.
+    The policy sees what a program in the cell sees: the readings of the sensors. With the last component of an action,
+    the policy reports that the work is done. After this report, or at the time limit, the referee judges the true
+    state of the cell.
     """
 
     metadata: dict[str, Any] = {"render_modes": ["rgb_array"], "render_fps": 60}  # noqa: RUF012 - as in Gymnasium

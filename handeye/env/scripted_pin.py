@@ -85,7 +85,7 @@ class ScriptedPin(Policy):
         return drive.comply(course, monitor((Force(force=(0.0, 0.0, -force)),))).trip is not None
 
     def _seated(self, drive: ArmDrive, face: float) -> bool:
-        """Push a pin that is in the hole down to its shoulder. Returns True if the pin stands on its shoulder."""
+        """Push down a pin whose nose is in the hole. Returns True if the pin then stands on its shoulder."""
         if self._down(drive, NOSE - 3 * LIFTED, QUICK, PRESSED) or not self._down(
             drive, 0.01, SLOW, PRESSED / 2
         ):

@@ -1,7 +1,6 @@
-"""The devices of a cell as a policy has them: commands become actions, and readings come from observations.
-
-Code that is written against the ports, such as the servo and the executor of programs, then acts only through the
-action space, and knows only what the observations say.
+"""The devices of a cell for a policy. Commands to these devices become actions, and their readings come from
+observations. Code that uses the ports, such as the servo and the executor of programs, can therefore run as a policy.
+The code acts only through the action space, and knows only what the observations say.
 """
 
 from handeye.core.pose import Array

@@ -41,8 +41,8 @@ class Stopwatch:
 
 @dataclass(slots=True, kw_only=True)
 class ExecutionContext:
-    """Plan, arm and cell of a working phase. The drive and the world model keep their own state within the
-    context's state.
+    """Plan, arm and cell of a working phase. The drive and the world model store what they remember in the field
+    `state`.
     """
 
     plan: Plan

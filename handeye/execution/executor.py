@@ -187,7 +187,7 @@ class Executor:
         return next((number for number, step in enumerate(steps) if step.stage >= stage), None)
 
     def _leave(self, status: Literal["done", "skipped"] = "done") -> None:
-        """Report the end of a stage when the program leaves it or ends."""
+        """Report the end of a stage when the program leaves the stage, or when the program ends."""
         run = self.run
         program = run.plan.program
         if self.state.stage is None or self.state.stopped is not None:

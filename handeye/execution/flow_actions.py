@@ -1,5 +1,5 @@
-"""Actions that do not move the arm. They test for errors, count, control searches, save differences, define positions,
-declare the load, and set the screwdriver.
+"""Actions that do not move the arm. These actions test for errors, change counters, control searches, save
+differences, define positions, declare the load, and set the screwdriver.
 """
 
 from typing import Final
@@ -70,7 +70,7 @@ def search(run: ExecutionContext, operation: Search) -> None:
 
 
 def advance(run: ExecutionContext, _: Advance) -> Fault | None:
-    """Advance to the next place of the search, for the next motion of the search."""
+    """Advance the search to its next place. The next motion of the search goes there."""
     state = run.state.search
     if state is None:
         return Fault(number=errors.SEARCH_EXHAUSTED, cause=NoSearch())

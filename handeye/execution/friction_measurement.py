@@ -74,8 +74,8 @@ def measure_joints(
     """Measure joint friction and link weights. The arm ends where it began.
 
     The arm moves back and forth around the set-point in `state`. Raises FrictionUnknown if a joint does not move as
-    commanded or needs far more torque than its stated friction, or if a link weight is implausible. Raises Halted if
-    the panic button is pressed.
+    commanded, if its friction is far greater than stated, or if a link weight is implausible. Raises Halted if the
+    panic button is pressed.
     """
     periods: list[ServoPeriod] = []
     drive = ArmDrive(cell=cell, arm=arm, state=state, watch=periods.append, halt=halt, arithmetic=arithmetic)
@@ -192,7 +192,9 @@ def _check_moved(arm: ArmModel, samples: Samples, periods: Sequence[ServoPeriod]
 
 
 def _unexplained(arm: ArmModel, periods: Sequence[ServoPeriod], period: float) -> Array:
-    """Return the mean torque beyond weight and inertia, shape (n,), from the end of the first servo period on."""
+    """Return the mean torque of each joint, minus the torques of weight and inertia, shape (n,). The mean is taken
+    over the time after the first servo period.
+    """
     before, *after = periods
     q = np.array([each.sensed.q for each in after])
     efforts = np.array([each.effort for each in after])

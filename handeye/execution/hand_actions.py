@@ -63,8 +63,8 @@ def _to_gap(run: ExecutionContext, goal: float) -> None:
 
 
 def close(run: ExecutionContext, operation: Close) -> Fault | None:
-    """Close the fingers until both switches close, or until the gap is too small for any object. Then check that
-    the hand holds the expected object.
+    """Close the fingers until both finger switches close, or until the gap is too small for any object. Then check
+    that the hand holds the expected object.
     """
     fault = _begin_to_close(run)
     if fault is not None:
@@ -151,7 +151,9 @@ def _touch(run: ExecutionContext) -> tuple[bool, bool]:
 
 
 def _begin_to_close(run: ExecutionContext) -> Fault | None:
-    """Check before closing that no switch is closed. If a finger touches an object, the hand first opens a little."""
+    """Check that no finger touches an object before the hand closes. If a touch switch is on, open the hand a little,
+    and return an error if a switch is still on.
+    """
     drive, already = run.drive, run.state.grasping
     run.state.grasping, drive.state.in_air = True, False
     drive.state.clear = drive.state.clear and already  # what is grasped stands on something

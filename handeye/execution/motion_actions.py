@@ -239,8 +239,8 @@ def _motor(run: ExecutionContext) -> CurrentSilent | CurrentUnlike | MotorSlow |
 
 
 def _fast(drive: DriveState) -> MotorFast | None:
-    """Return the cause if the motor turns too fast: it runs free now, but was still speeding up after the usual
-    time.
+    """Return the cause if the motor turns too fast; if not, return None. A motor that turns too fast takes longer than
+    usual to reach its speed, although it then runs without load.
     """
     late, free = drive.starting[STARTING_PERIODS:], drive.lately[FAST_PERIODS:]
     if len(late) < FAST_PERIODS - STARTING_PERIODS or not free or median(free) > 2 * CURRENT_NOISE:
@@ -250,7 +250,7 @@ def _fast(drive: DriveState) -> MotorFast | None:
 
 
 def _turned_hard(run: ExecutionContext, guards: Guards) -> Fault | None:
-    """Return the error if a screw that was driven to its torque took too much torque on the way. The thread of such a
+    """Return the error if a screw was too hard to turn before it reached the torque of its guard. The thread of such a
     screw uses up torque that should clamp the parts.
     """
     asked = [each.torque for each in guards if isinstance(each, Torque)]

@@ -74,8 +74,8 @@ class Agenda(MutableRecord, Generic[Time], kw_only=True):
         pass_until: Callable[[Time], Time],
         next_event: Callable[[], Time | None] = lambda: None,
     ) -> str | None:
-        """Return the task that continues next, or None if all tasks have ended. The caller must then call `sleep`,
-        `wait` or `end` for the task.
+        """Return the task that continues next, or None if all tasks have ended. The caller executes the task, and must
+        then call `sleep`, `wait` or `end` for it.
 
         `met` returns True if the condition of a waiting task is met. `pass_until` lets time pass at least until the
         given time, and returns the new time. `next_event` returns the time of the next event for which tasks may
@@ -101,8 +101,8 @@ class Agenda(MutableRecord, Generic[Time], kw_only=True):
         return None
 
     def sleep(self, task: str, duration: Time) -> None:
-        """Make a task due again: its next time is `duration` after the time at which it was last due, even if it
-        continued later than that time.
+        """Make a task due again: `duration` after the time at which the task was last due. This applies even if the
+        task was executed late.
         """
         time, again = self.due[task]
         if duration < 0:

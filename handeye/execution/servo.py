@@ -2,8 +2,8 @@
 
 The servo uses only the device interfaces: positions come from the potentiometers, refined by the tachometers, and
 forces from the residual of the joint torques. The code that is executed in a servo period does not itself let time
-pass. After it has commanded all devices, it yields to its caller, who lets time pass. When it is resumed, it reads the
-cell.
+pass. After commanding all devices, this code yields to its caller, who lets time pass. When the caller resumes the
+code, the code reads the cell.
 """
 
 from collections.abc import Callable, Generator
@@ -54,7 +54,9 @@ of the motion.
 
 
 class Halted(Exception):
-    """Raised when the panic button is pressed. From this servo period on, the drives are off and the brakes are set."""
+    """Raised when the panic button is pressed. From the servo period in which the button is pressed, the drives are
+    off and the brakes are set.
+    """
 
 
 @dataclass(slots=True, kw_only=True)
@@ -163,7 +165,7 @@ class Servo:
         If `estimate` is True, the force on the hand is estimated at the end of the period: for `guards` or, if
         `taring` is True, for the tare. `friction` are the torques of known friction, which are compensated, so that
         friction is not sensed as force. The torques `dither` are added to those of the servo. Returns the torque
-        residual, shape (n,), beyond weight, inertia and load; it includes friction.
+        residual, shape (n,): the torques less those for weight, inertia and load. The residual includes friction.
         """
         q_was, before = self.state.here, self.sensed
         load = here.J[2] * self.state.load

@@ -1,8 +1,8 @@
 """The servo loop: motions of an arm along set-points, one servo period at a time, watched by guards.
 
-A motion is a generator. It yields after it has commanded all devices for a servo period, and reads the cell when it is
-resumed. Only the caller advances the clock, between these two moments. Any number of arms can therefore move under one
-clock.
+A motion is a generator. After commanding all devices for a servo period, the motion yields, and the caller advances
+the clock. When the caller resumes the motion, the motion reads the cell. Any number of arms can therefore move under
+one clock.
 """
 
 from collections.abc import Callable, Sequence
@@ -337,8 +337,8 @@ class ServoLoop(Servo):
         """Height (m, in W) at which the hand has stopped, computed from its set-point.
 
         At the hand, one step of the converters is up to .05 in, while a set-point has no steps. The arm takes many
-        readings while it moves, and the rounding errors of these readings average out. Two motions that end on the
-        same force therefore end at the same mean height.
+        readings while it moves, and the rounding errors of these readings average out. Therefore, if the same force
+        stops two motions, both end at the same mean height.
         """
         met = self.state.met
         return float(self.chain.forward(self.state.q)[2, 3] if met is None else met[2])

@@ -84,8 +84,8 @@ class SearchState(MutableRecord, kw_only=True):
         return found
 
     def place(self, pattern: SearchPattern, number: int) -> tuple[float, float] | None:
-        """Return the horizontal offset (m) of a place of the search. The place is on the line of the search or,
-        without a line, in the pattern. Returns None after the last place.
+        """Return the horizontal offset (m) of a place of the search. If the search follows a line, the place is on
+        this line; if not, the place is one of `pattern`. Returns None after the last place.
         """
         if number >= self.limit:
             return None

@@ -1,5 +1,5 @@
-"""Presents an arm whose servo runs in the computer as a machine of axes: the axes of the tool, and the gap of the
-hand.
+"""Presents an arm as a machine of axes: the axes of the tool, and the gap of the hand. The servo of the arm runs in
+the computer.
 """
 
 from dataclasses import replace

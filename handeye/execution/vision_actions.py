@@ -92,8 +92,8 @@ def look(run: ExecutionContext, operation: Look) -> Fault | None:
 
 
 def _dead(run: ExecutionContext, name: str, picture: Picture) -> SenseCause | None:
-    """Return the reason why a picture cannot be a new picture of a camera without faults, or None if there is no such
-    reason.
+    """Return a reason to suspect that the camera is faulty, or None. Such a reason is a picture that is blank, noisy
+    or equal to an earlier picture.
     """
     if blank(picture):
         return PictureBlank(picture=name)
@@ -228,8 +228,8 @@ Examination = Callable[[Picture, Picture, View, Part, Pose2D], Found | Failure]
 def _compared(
     run: ExecutionContext, operation: Comparison, number: int, examine: Examination[Found]
 ) -> Found | Fault | None:
-    """Examine two pictures, the earlier first. Returns the finding. If the examination fails, returns the error
-    `number`. If vision is switched off, returns None.
+    """Examine the two pictures of a comparison with `examine`, which takes the earlier picture first. Returns the
+    finding. If the examination fails, returns the error `number`. If vision is switched off, returns None.
     """
     if "vision" in run.without:
         return None

@@ -69,8 +69,8 @@ def _pair_of(pairs: Sequence[Pair], side: int, number: int | None) -> int:
 
 
 def _survivor(pairs: Sequence[Pair], at: int) -> int | None:
-    """Return the index of the first pair, from `at` on, that has a step in both programs, or None if there is no such
-    pair.
+    """Find the first pair with a step in both programs, beginning at the index `at`. Returns the index of this pair,
+    or None if there is no such pair.
     """
     return next((place for place in range(at, len(pairs)) if None not in pairs[place]), None)
 

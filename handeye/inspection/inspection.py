@@ -25,7 +25,7 @@ Newest = dict[Key, frozenset[int]]  # for each measurement, the steps that may h
 
 
 class Dependence(Record, frozen=True, kw_only=True):
-    """A measurement during the run on which a step depends."""
+    """A measurement on which a step depends. A step makes this measurement during the run."""
 
     kind: Measured
     name: str  # empty for a search

@@ -83,7 +83,7 @@ def columns(nodes: Sequence[Node], edges: Sequence[FlowEdge]) -> list[Column]:
 
 
 def _lanes(column: Sequence[Node], edges: Sequence[FlowEdge], side: str) -> dict[FlowEdge, int]:
-    """Assign lanes to the edges of a column that go back or skip steps. Short edges get the inner lanes."""
+    """Assign a lane to each edge that goes back or skips steps within a column. Short edges get the inner lanes."""
     place = {node.step: at for at, node in enumerate(column)}
     found = []
     for edge in edges:
@@ -158,7 +158,7 @@ class Layout:
 
 @dataclass(slots=True, kw_only=True)
 class _Shelves:
-    """Places stages side by side, and starts a new shelf when the row is full."""
+    """Places stages side by side on a shelf, and starts a new shelf when the shelf is full."""
 
     edges: tuple[FlowEdge, ...]
     boxes: dict[int, StepBox] = field(default_factory=dict)

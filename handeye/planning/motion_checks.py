@@ -87,8 +87,8 @@ class Obstacles:
 
 
 def table_crossing(X_WT: Pose, boxes: Sequence[Box], *, goal: bool) -> Crossing | None:
-    """Find the deepest collision of boxes (given in frame T) with the table, for hand poses of shape (N, 4, 4).
-    Returns None if there is no collision.
+    """Find the deepest collision of the hand's boxes with the table. The boxes are given in frame T, and the hand
+    poses have shape (N, 4, 4). Returns None if there is no collision.
     """
     if not boxes:
         return None

@@ -49,9 +49,9 @@ def make_plan(
 ) -> tuple[Plan | None, list[PlanFinding]]:
     """Plan a program for an arm. Returns two values: the plan, or None if there are errors; and the findings.
 
-    A position that only a `HERE` defines gets the pose that the arm is planned to have at that `HERE`. The arm begins
-    at `start`, shape (n,), rad and m. By default, the arm begins at the position `HOME`, or at the first goal if the
-    program has no `HOME`.
+    If only a `HERE` defines a position, the position gets the pose that the arm has at this `HERE` according to the
+    plan. The arm begins at `start`, shape (n,), rad and m. By default, the arm begins at the position `HOME`, or at
+    the first goal if the program has no `HOME`.
     """
     findings = FindingList()
     walk = _Walk(

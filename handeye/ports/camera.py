@@ -44,7 +44,7 @@ class TvCamera(ABC):
 
     @abstractmethod
     def lens(self, focal_length: float) -> float:
-        """Turn the turret to the lens with a focal length (m), which must be one of LENSES. Returns the
+        """Turn the turret to the lens with the focal length `focal_length` (m), one of LENSES. Returns the
         duration (s). Raises InvalidInput if there is no such lens.
         """
 
@@ -74,7 +74,7 @@ class TvCamera(ABC):
         the tube and the digitiser need for a picture.
 
         Args:
-            hold_target: keep the vidicon's target voltage (gain) of the previous picture instead of adjusting
+            hold_target: keep the vidicon's target voltage (gain) as it was for the previous picture, and do not adjust
                 it. The target voltage must be kept if the two pictures will be subtracted from each other.
         """
 

@@ -116,8 +116,8 @@ class MicrobusPort(ABC):
 
     @abstractmethod
     def begin(self, command: Command, answer: int = 0) -> None:
-        """Begin to send a command. `answer` is the number of bytes in its answer. Raises Refused unless the bus is
-        free.
+        """Begin to send a command. `answer` is the number of bytes in the answer to the command. Raises Refused unless
+        the bus is free.
         """
 
     @abstractmethod

@@ -61,8 +61,8 @@ class RunStarted(Event, frozen=True, kw_only=True):
 
     @property
     def made_alike(self) -> "RunStarted":
-        """A copy of the event that lacks three facts: the versions, the processor, and the renderer's platform. With
-        such copies, runs made on different computers can be compared.
+        """A copy of the event without three facts: the versions, the processor, and the renderer's platform. Such
+        copies make runs from different computers comparable.
         """
         camera = msgspec.structs.replace(self.camera, platform="")
         return msgspec.structs.replace(self, versions={}, processor=UNSET, camera=camera)

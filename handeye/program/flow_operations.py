@@ -1,5 +1,5 @@
-"""Operations that do not move the arm. They control searches, test for errors, count, save differences and positions,
-declare the load, set the tool and call the operator.
+"""Operations that do not move the arm. These operations control searches, test for errors, change counters, save
+differences and positions, declare the load, set the tool and call the operator.
 """
 
 from typing import ClassVar, Self

@@ -47,8 +47,8 @@ class Operation(
 ):
     """Base class of the operations. The class name in lower case is the tag in the plan file.
 
-    Each field stands for a property, and its default means that the operation does not have this property. So a plan
-    keeps its meaning if the field is missing from it.
+    Each field stands for a property, and its default means that the operation does not have this property. If the plan
+    file lacks the field, the plan therefore has the same meaning as with the default.
     """
 
     family: ClassVar[Family] = "other"

@@ -155,7 +155,7 @@ class Program(Record, frozen=True, kw_only=True, omit_defaults=True):
 
     @property
     def labels(self) -> dict[str, list[int]]:
-        """Numbers of the steps with each label. A label in a macro has one step for each call of the macro."""
+        """For each label, the numbers of its steps. A label in a macro has one step for each call of the macro."""
         found: dict[str, list[int]] = {}
         for number, step in enumerate(self.steps):
             for label in step.labels:

@@ -17,7 +17,7 @@ ASSUMPTIONS: Final[dict[str, str]] = {
 
 
 def assumption(name: str) -> str:
-    """Write the assumption that a run makes without a sense, or without a macro of its program."""
+    """Write the assumption that a run makes if a sense, or a macro of the program, is switched off."""
     return ASSUMPTIONS.get(name, f"{name} is skipped")
 
 

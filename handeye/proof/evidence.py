@@ -134,7 +134,7 @@ def _aligned(one: Vector3, other: Vector3) -> bool:
 
 class Contact(Record, frozen=True, kw_only=True):
     """A straight motion that a contact has ended: where it began, its direction, and the force of its guard (N). If
-    `torque` (N m) is given, not a force but this torque of the screwdriver has ended the motion.
+    `torque` (N m) is given, this torque of the screwdriver has ended the motion, not a force.
     """
 
     where: Region
@@ -220,7 +220,7 @@ class Contacted(Evidence, frozen=True, kw_only=True):
 
 
 class FreeTurn(Evidence, frozen=True, kw_only=True):
-    """A turn about an axis, through at least a given arc, that met less than a given force (N).
+    """A turn about an axis, through at least a given arc, against a force that stayed below a given limit (N).
 
     The arc is given by its ends (rad from table x, counter-clockwise) and by the direction of the turn: 1 for
     counter-clockwise, -1 for clockwise.

@@ -1,5 +1,5 @@
-"""Where the hand can be at each node, as far as the program fixes the place: the planned place of the last MOVE,
-and what the motions after it add.
+"""Finds where the hand can be at each node, as far as the program determines the place. The place is the planned goal
+of the last MOVE, plus the displacements of the motions after that MOVE.
 
 Corrections that are measured during a run (RESTORE, and the offset of a search) are left out, because these
 corrections only lead the hand to the true place of the position.

@@ -19,7 +19,7 @@ class Phase(Record, frozen=True, kw_only=True):
 class Claim(Record, frozen=True, kw_only=True):
     """A statement about the work. Some steps of a program show that the statement is true. The claim has phases, and
     the steps must show the phases in this order. If `at_first` is True, the claim holds when the program begins. In
-    this case, the program must show the claim only after a step that undoes the claim.
+    this case, the program need not show the claim, except after a step that undoes the claim.
     """
 
     says: str  # clause, such as `the fingers feel the head`

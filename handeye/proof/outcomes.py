@@ -1,8 +1,8 @@
 """The paths through a program, as a graph in which every action has one edge for each outcome.
 
-An action either succeeds or raises one of its errors. A raised error leads to the tests that follow the action, as in
-the executor. If one of these tests is for the raised error, the path continues at the target of this test. Otherwise,
-the arm stops. A call to the operator is a stop, too.
+An action either succeeds or raises one of its errors. After a raised error, the path continues, as in the executor, at
+the tests that follow the action. If one of these tests is for the raised error, the path continues at the target of
+this test. Otherwise, the arm stops. A call to the operator is a stop, too.
 """
 
 from collections.abc import Sequence

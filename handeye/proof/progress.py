@@ -1,4 +1,4 @@
-"""How far a claim is shown at each node: the number of its phases that every path to the node has shown."""
+"""How far a claim is shown at each node: the number of phases of the claim that are shown on every path to the node."""
 
 from dataclasses import dataclass, field
 from heapq import heappop, heappush
@@ -85,9 +85,9 @@ class Effects:
 
 
 def least_shown(graph: OutcomeGraph, effects: list[Effects]) -> list[int]:
-    """For each claim, return the least number of its phases that a path to the end has shown. The search assumes that
-    every branch is possible: it does not follow counters. UNREACHED means that no path leads to the end of the
-    program.
+    """For each claim, count the phases that each path to the end of the program shows, and return the smallest count.
+    The search ignores the values of counters and assumes that every branch is possible. UNREACHED means that no path
+    leads to the end of the program.
     """
     by_edge: dict[EdgeKey, list[tuple[int, Table]]] = {}
     for number, one in enumerate(effects):

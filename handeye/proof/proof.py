@@ -1,5 +1,5 @@
-"""Proves the obligations of a task for a program. If an obligation cannot be proved, the proof finds a path that
-avoids the obligation.
+"""Proves that a program meets the obligations of a task. If an obligation cannot be proved, the proof finds a path
+through the program that avoids the obligation.
 """
 
 from collections.abc import Iterable, Sequence
@@ -224,7 +224,7 @@ class _Prover:
 
 
 def _undone(form: Effects, way: list[Leg]) -> int | None:
-    """Find the last leg that undoes shown phases of a claim. Return the index of this leg."""
+    """Return the index of the last leg that undoes a phase of a claim that an earlier leg has shown."""
     found, shown = None, form.first
     for index, leg in enumerate(way):
         table = form.tables.get((leg.node, leg.edge))

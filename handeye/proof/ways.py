@@ -1,5 +1,5 @@
 """Searches for a path that reaches the end without showing a claim. The search follows the values of counters exactly.
-If the program has an UNDO, the search does not follow them, because a reversal restores counters.
+If the program has an UNDO, the search ignores the values of counters, because a reversal restores them.
 """
 
 from collections import deque

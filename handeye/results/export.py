@@ -157,7 +157,7 @@ class Weight(Record, frozen=True, kw_only=True):
 
 
 class Export(Record, frozen=True, kw_only=True):
-    """A record of an export that was written."""
+    """Describes an export file that handeye has written."""
 
     path: str
     format: Literal["mjcf", "glb"]
@@ -211,8 +211,8 @@ def export_glb(path: Path, shown: Shown, *, part: str = WHOLE, overwrite: bool =
 
 
 def export(path: Path, shown: Shown, *, part: str | None, overwrite: bool) -> Export:
-    """Write solids if the path ends in .glb; if not, write a scene for MuJoCo to a folder. Raises InvalidInput if the
-    export cannot be written.
+    """If the path ends in .glb, write the solids to this file. If it does not, write a scene for MuJoCo to a folder
+    with this path. Raises InvalidInput if the export cannot be written.
     """
     if path.suffix == GLB.ending:
         return export_glb(path, shown, part=WHOLE if part is None else part, overwrite=overwrite)

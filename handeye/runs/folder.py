@@ -167,7 +167,7 @@ class RunFolder(Observer):
             self._journal.undone(events, self._runner.time, "back")
 
     def _goes_on(self) -> None:
-        """Remove the files with the outcome when the run continues, because these files are then outdated. While the
+        """Remove the files that hold the outcome of the run. The files are outdated when the run continues. While the
         run continues, other commands may write such files again; `close` removes them.
         """
         if not self._continued:

@@ -30,7 +30,7 @@ class Use(NamedTuple):
 
 
 class Lack(NamedTuple):
-    """A demand of a program that a leg cannot meet, with the line of the program."""
+    """Something that a program needs and a leg cannot provide, with the line of the program that needs it."""
 
     line: int
     sentence: str
@@ -124,7 +124,7 @@ class LegSystem(ABC):
         return ()
 
     def lacks(self, plan: Record, stage: str, earlier: Sequence[str]) -> Sequence[Lack]:
-        """Return those demands of a stage that a leg cannot meet. `earlier` gives the stages that earlier legs of the
+        """Return what a stage needs and a leg cannot provide. `earlier` gives the stages that earlier legs of the
         same program execute.
         """
         return ()

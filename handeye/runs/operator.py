@@ -90,8 +90,8 @@ class Retry:
 
 @dataclass(frozen=True, slots=True)
 class UnwindOnce:
-    """Lets the arm undo its steps back to the beginning of the stage whose index is `stage`, once for each stage that
-    fails.
+    """Lets the arm undo its steps when a stage fails for the first time. The arm goes back to the beginning of the
+    stage with the index `stage` or, by default, of the stage that failed.
 
     Like `Retry`, this operator counts earlier attempts from the events of the run.
     """
@@ -156,8 +156,8 @@ def attend(
     stops: Sequence[AnyStop] = (),
     kept: Callable[[int], Checkpoint | None] = lambda _: None,
 ) -> Pause:
-    """Continue the run. At each call, follow the operator's answer. Return when the run has paused and the operator
-    cannot continue it.
+    """Continue the run. At each call, follow the operator's answer. Return when the run pauses without a call, or when
+    the operator aborts the run.
 
     The function `kept` is needed when the run goes back. Called with a number of steps, it returns the newest
     checkpoint on disk at which at most this number of steps was done.

@@ -72,7 +72,9 @@ def named(names: dict[str, str]) -> str:
 
 
 def name_of(code: Any) -> str:
-    """Return the name of a function or class, or of the class of any other object, with its module."""
+    """Return the name of a function or class, preceded by the name of its module. For any other object, return the
+    name of its class in the same way.
+    """
     named = code if hasattr(code, "__qualname__") else type(code)
     return f"{named.__module__}.{named.__qualname__}"
 

@@ -1,6 +1,6 @@
 """A run that can be stepped, stopped and restored.
 
-After every step, the cell's state is captured and immediately restored. Restoring the state resets everything that a
+After every step, the cell's state is captured and immediately restored. This restoration resets whatever the captured
 state does not contain (see `SimulatedCell.restore`). A run that is interrupted and resumed therefore takes the same
 course, byte for byte, as a run that is not interrupted.
 """
@@ -209,7 +209,9 @@ class Runner:
 
     @property
     def onward(self) -> int | None:
-        """Number of the step that would have run next if the program had not stopped to call the operator, or None."""
+        """If the program has stopped to call the operator, the number of the step that would have run next; if not,
+        None.
+        """
         return self.system.state.onward
 
     @property

@@ -55,7 +55,7 @@ class ToolArm:
         return round(round(self.drive.sensed.time / period) * period, 6)
 
     def take_over(self, record: HandOver, station: StationMemory) -> None:
-        """Hold the arm where it stands, and hold the part that the record names, if the record names a part."""
+        """Hold the arm where it stands. If the record names a part, hold this part too."""
         memory, drive = self.memory, self.memory.drive
         drive.friction, drive.links, drive.weights = station.friction, station.links, station.weights
         drive.hold_anew(self.cell.devices.sense(), self.arm)

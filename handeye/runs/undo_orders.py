@@ -52,7 +52,9 @@ def to_be_undone(checkpoint: Checkpoint, name: str, stage: int | None = None) ->
 
 
 def _check_whole(checkpoint: Checkpoint, done: Sequence[ExecutedStep], name: str) -> None:
-    """Raise Refused if the run has not undone its first step yet, and can no longer undo this step."""
+    """Raise Refused if the arm cannot undo the whole run: the run has no steps, is already undone, or has no record of
+    how to undo its first steps.
+    """
     first = next((event for event in checkpoint.events if isinstance(event, StepStarted)), None)
     if first is None:
         raise Refused(f"{name} has no steps: there is nothing to undo")

@@ -37,7 +37,9 @@ class UnnamedRun:
     """
 
     def __init__(self, home: Path, start: Checkpoint) -> None:
-        """Begin a run in `home`, and remove all but the newest ten unnamed runs there; raises CannotWrite."""
+        """Begin a run in `home`, and remove all but the newest ten unnamed runs there. Raises CannotWrite if the
+        folder of the run cannot be written.
+        """
         try:
             path = _new_place(home, start)
             self._mark = LineFile(path / MARK, "another run", again=False)

@@ -35,8 +35,8 @@ def setup_of(trace: Trace) -> Setup:
 
 
 def settled(events: Sequence[AnyEvent]) -> int:
-    """Count the events at the beginning of a run that do not depend on the moment at which the panic button was
-    pressed.
+    """Count the events of a run up to the step that the panic button interrupted. These events do not depend on the
+    exact moment at which the button was pressed.
     """
     if not events or not isinstance(events[-1], PanicStopped):
         return len(events)

@@ -157,7 +157,9 @@ def of_plans(kind: Kind) -> Iterator[Task]:
 
 
 def _ours() -> dict[str, str]:
-    """Return the MODULE:NAME from which each of handeye's own tasks, and each task of its systems, is imported."""
+    """Return, for each task that belongs to handeye or to one of its systems, the MODULE:NAME from which the task is
+    imported.
+    """
     return _BUILT_IN | {name: place for entry in entries().values() for name, place in entry.tasks.items()}
 
 

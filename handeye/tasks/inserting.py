@@ -1,5 +1,5 @@
-"""Defines the interface of a task with one hole, as the trials of insertion use it. The cell of such a task has a
-witness, which records what really happened in each insertion.
+"""Defines the interface of a task with one hole. The trials of insertion use this interface. The cell of such a task
+has a witness, which records what really happened in each insertion.
 """
 
 from __future__ import annotations
@@ -40,8 +40,8 @@ class InsertionTask(Task):
 
     @abstractmethod
     def caught(self, clearance: float, chamfer: float) -> float:
-        """Return the greatest position error (m) of a hole with this clearance (m) and chamfer (m) at which the
-        pin still enters the hole.
+        """Return the greatest position error (m) at which the pin still enters a hole. The hole has this clearance (m)
+        and chamfer (m).
         """
 
     @abstractmethod

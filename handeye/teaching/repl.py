@@ -33,7 +33,7 @@ _ANSWERS: Final = (
 
 @dataclass(slots=True, kw_only=True)
 class Repl:
-    """A session of the arm program, with a cell and the instructions collected so far."""
+    """A session of the arm program. It has a cell, and the instructions that were collected so far."""
 
     workplace: Workplace
     folder: Path  # folder of the programs for `DO NAME`

@@ -58,8 +58,8 @@ class Monitor(Protocol):
 
 @dataclass(slots=True, kw_only=True, eq=False)
 class VectorMonitor:
-    """Trips when the force (N) that the hand exerts along `vector`, or the moment (N m) about `vector`, exceeds the
-    length of `vector`, shape (3,), in world axes.
+    """Trips when the hand exerts too great a force (N) along `vector`, or too great a moment (N m) about `vector`. The
+    limit is the length of `vector`, shape (3,), in world axes.
     """
 
     guard: GuardKind

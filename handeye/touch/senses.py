@@ -93,8 +93,9 @@ def leapt(change: float, reach: float) -> bool:
 
 
 def work_of_fingers(change: float, force: float) -> float:
-    """Compute, from a change (m) of the gap and the force (N) of the fingers, the work (J) that the fingers have done
-    on the object between them. The work is 0 if the fingers may have stood still, or were pushed apart.
+    """Compute the work (J) that the fingers have done on the object between them. `change` is the change of the gap
+    (m), and `force` is the force of the fingers (N). The work is 0 if the fingers may have stood still, or were pushed
+    apart.
     """
     return -change * force if change < -SHIFT_NOISE else 0.0
 
@@ -107,8 +108,9 @@ def thick(gap: float, thickness: float) -> bool:
 
 
 def kept_apart(gap: float, goal: float) -> bool:
-    """Return True if an object keeps the fingers apart at a gap (m) while the motor drives the fingers together. The
-    grip may be too light to close a switch.
+    """Return True if an object keeps the fingers apart while the motor drives them together. `gap` is the gap of the
+    fingers, and `goal` the gap to which the motor drives them (both in m). The grip may be too light to close a
+    switch.
     """
     return gap > EMPTY_GAP and gap - goal > GAP_ERROR
 
@@ -158,7 +160,7 @@ def at_least(gap: float, thickness: float) -> bool:
 
 
 def at_most(gap: float, thickness: float) -> bool:
-    """Return True if the fingers hold no object thicker than this (m)."""
+    """Return True if the fingers hold no object that is thicker than `thickness` (m)."""
     return gap <= thickness
 
 

@@ -93,9 +93,7 @@ def _difference(
     *,
     rounded: bool = False,
 ) -> str:
-    """Describe the difference in a sentence. If `rounded` is True, describe the first quantity that differs by more
-    than its last digits.
-    """
+    """Describe the difference in a sentence. If `rounded` is True, ignore differences that are due to rounding."""
     events = so_far.events
     last = a.events[events - 1] if events else None
     after = "before the first event" if last is None else f"after event {events} ({sentence(last)})"

@@ -68,8 +68,9 @@ class Forces(Brief):
 
 
 def recorded_forces(times: Array, messages: Iterable[RawMessage]) -> Forces:
-    """Make the arrays from messages about the hand, one per servo period. Raises ValueError if messages are
-    missing."""
+    """Make the arrays from messages about the hand. There is one message for each servo period. Raises ValueError if
+    messages are missing.
+    """
     told = [read_hand(message.data) for message in messages]
     if len(told) != len(times):
         raise ValueError("the number of servo periods and the number of hand forces differ")

@@ -78,7 +78,9 @@ Mask = NDArray[np.bool_]
 
 
 class Frames:
-    """The poses of a cell's bodies, as the simulator computed them last: one physics step before the present tick."""
+    """The poses of a cell's bodies one physics step before the present tick. These are the latest poses that the
+    simulator has computed.
+    """
 
     def __init__(self, truth: Truth, joints: tuple[str, ...]) -> None:
         """Observe a cell. `joints` are the names of the arm's joints, in the order of the arm."""
@@ -93,7 +95,9 @@ class Frames:
         return np.concatenate([data.xpos[1:], data.xquat[1:]], axis=1, dtype=np.float32, casting="same_kind")
 
     def there(self) -> Mask:
-        """Return a mask, shape (n,), of the bodies that exist now. Bodies that are put away are included."""
+        """Return a mask, shape (n,). The mask is False for a body that appears only after an event, while the event
+        has not happened yet. The mask is True for all other bodies, even if they are put away.
+        """
         there: Mask = self._truth.model.geom_group[self._looks] != LATENT
         return there
 

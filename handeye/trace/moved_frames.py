@@ -32,7 +32,7 @@ class MovedFrames:
 
         Each pose is compared with the last pose that was written. Which pose was written last depends on earlier
         comparisons. Therefore the comparisons are made in rounds. The first round assumes that nothing was written.
-        Each further round assumes that exactly those rows were written which the previous round chose. The rounds end
+        Each further round assumes that exactly the rows chosen by the previous round were written. The rounds end
         when nothing changes. Each round settles at least one of the `m` times. Frames that rest, or that move all the
         time, need at most three rounds.
         """

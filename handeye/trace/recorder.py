@@ -60,8 +60,8 @@ class Recorder:
     ) -> None:
         """Begin a trace. An unfinished trace of another run at this path is replaced.
 
-        `plan` is the content of `plan.json`. To resume a trace, `old` is the content of that trace, which may be
-        incomplete, and `prefix` are the events with which the trace begins.
+        `plan` is the content of `plan.json`. To resume a trace, give its content as `old`, and the events with which
+        it begins as `prefix`. The content may be incomplete.
         """
         self._path, self._frames, self._looks, self._plan = path, frames, looks, plan
         self._waiting: list[tuple[ServoPeriod, Poses, Mask]] = []

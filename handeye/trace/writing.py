@@ -87,7 +87,7 @@ class TraceWriter:
         )  # without this, the marks of the previous picture would stay
 
     def found(self, time: float, picture: str, marks: Sequence[Mark]) -> None:
-        """Write the marks for what vision found in a picture. After this message, the caller writes the event of the
+        """Write the marks for what vision found in a picture. The caller must then write the event that reports the
         finding.
         """
         self.file.write(ANNOTATIONS, nanoseconds(time), annotations(self._taken[picture], marks))

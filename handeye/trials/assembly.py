@@ -53,8 +53,8 @@ def run_plan(
             of views.
         halt: the panic button, polled in every servo period.
 
-    Raises InvalidInput if arm, limits or camera do not fit, and Halted if the panic button is pressed before
-    the working phase.
+    Raises InvalidInput if the plan was made for another arm, or if the limits or the camera cannot be used; raises
+    Halted if the panic button is pressed before the working phase.
     """
     setup = Setup(
         plan=plan,

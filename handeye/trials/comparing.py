@@ -51,7 +51,7 @@ class PairedTrial(NamedTuple):
 
 def paired(names: Sequence[str], batches: Sequence[Batch]) -> tuple[PairedBatch, ...]:
     """Compare each later batch with the first batch. Raises InvalidInput if a later batch is of another kind than the
-    first, or if the same seeds give other worlds in it.
+    first, or if it comes from a version of handeye in which the same seeds give different worlds.
     """
     first_head = batches[0][0]
     for name, (head, _) in zip(names, batches, strict=True):

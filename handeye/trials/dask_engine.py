@@ -15,8 +15,8 @@ HOST: Final = "127.0.0.1"  # Workers here listen on this computer alone
 
 
 def dask_workers(count: int, scheduler: str | None) -> Engine:
-    """Return an engine. If `scheduler` is an address, the engine uses the workers of the scheduler there. If it is
-    None, the engine starts `count` workers on this computer.
+    """Return an engine. If `scheduler` is an address, the engine uses the workers of the scheduler at this address. If
+    `scheduler` is None, the engine starts `count` workers on this computer.
     """
     return lambda work, cases: _answers(work, cases, count, scheduler)
 

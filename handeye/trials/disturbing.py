@@ -1,5 +1,5 @@
-"""Trials in which the cell is disturbed before the arm undoes its work. The trials show whether a guard stops the arm
-before the arm does harm.
+"""Trials of undoing in a disturbed cell. The arm builds the product, the cell is disturbed, and the arm then undoes
+its work. The trials show whether a guard stops the arm before the arm does harm.
 """
 
 from collections.abc import Mapping, Sequence
@@ -125,8 +125,8 @@ def _built(runner: Runner, plan: Plan, change: Disturbance) -> bool:
 
 
 def _moved(runner: Runner) -> tuple[float, str]:
-    """Execute a step. Of the parts that the hand holds neither before nor after the step, find the part that moved
-    farthest. Returns the displacement (mm) and the name of this part.
+    """Execute a step, and find the part that the step moved farthest. Parts that the hand holds before or after the
+    step do not count. Returns the displacement (mm) and the name of the part that moved farthest.
     """
     work = task(runner.setup.task)
     before = work.bystanders(runner.cell.truth)

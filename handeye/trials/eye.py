@@ -45,7 +45,7 @@ summary.
 
 
 def eye_sweep(name: str, trial: Trial[Any]) -> Sweep[EyeRow]:
-    """Return the sweep for the trial that a task calls `name`."""
+    """Return the sweep for the trial `trial`, which its task lists under the name `name`."""
 
     def attempts(rows: Sequence[EyeRow]) -> list[Attempt]:
         found = [msgspec.convert(row.attempt, trial.attempt) for row in rows if row.attempt]
@@ -67,7 +67,9 @@ def eye_sweep(name: str, trial: Trial[Any]) -> Sweep[EyeRow]:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class EyeWork:
-    """Makes the attempts of a task's trial. The attempts of a case share a world and its camera calibration."""
+    """Makes the attempts of a task's trial that runs no program. The attempts of a case share a world and its camera
+    calibration.
+    """
 
     task: str
     trial: str

@@ -158,8 +158,8 @@ class FaultWork:
         return [FaultRow(trial=case.trials[0], seed=case.seed, condition=case.condition, tried=tried)]
 
     def _start(self, world: WorldSpec, faults: tuple[Fault, ...], stage: int | None) -> Checkpoint:
-        """Return the start of a run with these faults: if possible, the stored state before the stage with which
-        the faults begin.
+        """Return the start of a run with these faults: if possible, the stored state before the stage in which the
+        faults begin.
         """
         setup = Setup(plan=self.plan, world=world, camera=self.camera)
         if self.sound is None or stage is None:

@@ -56,8 +56,8 @@ def mcnemar(only_first: int, only_second: int) -> float:
 
 
 def signed_rank(differences: Sequence[float]) -> float:
-    """Return the two-sided p-value of Wilcoxon's signed-rank test: if neither batch is better, the probability that
-    the differences favour one of the batches at least as strongly as `differences` do.
+    """Return the two-sided p-value of Wilcoxon's signed-rank test. This is the probability, if neither batch is
+    better, of differences that favour one of the batches at least as strongly as `differences`.
     """
     from scipy.stats import wilcoxon
 

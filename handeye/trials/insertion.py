@@ -253,8 +253,8 @@ def _beginning(condition: Condition, begun: Runner, trial: InsertionTrial, plan:
     """Return the start of a trial: the state in which the hand holds the pin, with the plate and the noise of
     this trial.
 
-    The plate is placed relative to the true position of the pin's end, so that the position error is exactly
-    the one that was drawn.
+    The plate is placed relative to the true position of the pin's end. The position error is therefore exactly the
+    error of the trial.
     """
     start = begun.checkpoint()
     assert start.snapshot is not None

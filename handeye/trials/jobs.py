@@ -74,8 +74,8 @@ class JobWork(Generic[J]):
 
 
 def job_sweep(job: str, row: type[J], sentence: Callable[[Mapping[str, float]], str]) -> Sweep[J]:
-    """Return the kind of sweep for the trials of a job. `sentence` returns a sentence on the means of the job's
-    figures.
+    """Return the kind of sweep for the trials of a job. `sentence` takes the mean values of the job's figures and
+    returns a sentence about them.
     """
     return Sweep(
         kind=job,
@@ -97,7 +97,7 @@ def _most(rows: Sequence[JobRow]) -> dict[str, float]:
 
 
 def _means(rows: Sequence[JobRow]) -> dict[str, float]:
-    """Return the means of the figures."""
+    """Return the mean value of each figure."""
     ended = [row.figures for row in rows if row.figures]
     if not ended:
         return {}

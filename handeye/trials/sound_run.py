@@ -72,8 +72,8 @@ def sound_run(folder: Path, of: Setup, world: WorldSpec, every: int | None = EVE
     InvalidInput if the folder belongs to another setup.
 
     Args:
-        every: steps from one checkpoint to the next. The state between two stages is always stored; if None, no other
-            states are stored.
+        every: steps from one checkpoint to the next. The state between two stages is always stored; if `every` is
+            None, no other states are stored.
     """
     store = CheckpointStore(folder / f"{world.seed}-{world.level}")
     setup = msgspec.structs.replace(of, world=world)
@@ -96,7 +96,8 @@ def sound_run(folder: Path, of: Setup, world: WorldSpec, every: int | None = EVE
 
 
 def _begun(store: CheckpointStore, stages: Sequence[str]) -> Iterator[tuple[int, int]]:
-    """Yield each number of steps after which a schedule can begin, together with the number of the stage.
+    """Yield each number of steps after which a schedule can begin, together with the number of the stage in which the
+    schedule then begins.
 
     If the program has only one stage, no schedule begins near the end of the program, because a resumed run may have
     to undo the work of the stage.

@@ -128,7 +128,7 @@ class TrialRow(Record, frozen=True, kw_only=True):
 
     @property
     def facts(self) -> Mapping[str, float]:
-        """Values that appear only in the table of trials, by a name with a unit."""
+        """Values that appear only in the table of trials. Each key is a name with its unit, such as `error_x, mm`."""
         return {}
 
 

@@ -136,8 +136,9 @@ def _place(stage: str, line: str | None = None) -> str:
 
 
 def comparison(first: str, found: Sequence[PairedBatch]) -> RenderableType:
-    """Compare batches with the first one: success rates, and differences of measured values where both trials
-    succeeded."""
+    """Compare each batch with the first one. The table shows the success rates. Where the same trial succeeded in both
+    batches, it also shows the differences of the measured values.
+    """
     rates = PlainTable(
         (f"compared with {first}",),
         "right",

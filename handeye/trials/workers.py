@@ -136,7 +136,7 @@ def in_processes(trial: Callable[[Item], T], worlds: Sequence[Item], jobs: int) 
 
 @contextmanager
 def deaf_to_interrupts() -> Iterator[None]:
-    """Within this context, processes are started so that they ignore Ctrl-C at the terminal. The parent process
+    """Processes that are started within this context ignore Ctrl-C at the terminal. The parent process
     handles Ctrl-C, and ends these processes silently.
 
     Threads that are started in this context, and processes that these threads start, ignore Ctrl-C permanently. An

@@ -87,8 +87,10 @@ def _put_bar(frame: Photograph, caption: Caption) -> None:
 
 
 def lettered(words: str, size: Sequence[int], room: int, *, margin: int, right: bool = False) -> Mask:
-    """Return the mask of a line of text in the middle of a band of `size` (height, width), at most `room`
-    pixels wide."""
+    """Return the mask of a band of `size` (height, width) with a line of text halfway up. The text is at most `room`
+    pixels wide, and begins `margin` pixels from the left edge. If `right` is True, the text ends `margin` pixels from
+    the right edge.
+    """
     height, width = size
     words, scale = _fitted(words, _FINER * height * _LETTERS / _BAND / _extent("M", 1)[1], _FINER * room)
     long, high = _extent(words, scale)

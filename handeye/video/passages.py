@@ -118,8 +118,9 @@ def _shares(took: Array, least: float) -> Array:
 
 
 def passage_at(lasts: Array, times: Array) -> tuple[Array, Array]:
-    """Return the index of the passage at each time of the video (s), and the fraction of the passage that is
-    over at that time."""
+    """Return, for each time of the video (s), the index of the passage at this time, and the fraction of this passage
+    that has been shown.
+    """
     ends = np.cumsum(lasts)
     at = np.minimum(np.searchsorted(ends, times, side="right"), len(lasts) - 1)
     return at, np.clip((times - (ends - lasts)[at]) / lasts[at], 0, 1)

@@ -36,8 +36,8 @@ class Television:
 
     @property
     def shows(self) -> tuple[float, str, Sequence[Finding]] | None:
-        """The time and the name of the picture, and what vision found in it. Two pictures with the same values
-        count as the same. The value is None if there is no picture.
+        """The time and the name of the picture on the television, and what vision found in this picture. Two pictures
+        with the same values count as the same. The value is None if there is no picture.
         """
         return None if self.picture is None else (self.picture.time, self.picture.name, self.picture.findings)
 

@@ -147,7 +147,7 @@ def _grow(scan: Scan, u: int, v: int, threshold: float) -> BoundingBox:
 
 
 class _Side:
-    """One side of a growing box. The side sees the picture turned, so that line numbers increase outwards."""
+    """One side of a growing box. For each side, the picture is turned so that line numbers increase outwards."""
 
     def __init__(self, scan: Scan, side: int) -> None:
         """`side` is the index of the side among the four numbers of a box."""
@@ -187,16 +187,17 @@ class _Side:
         return turned[::-1] if self.backwards else turned
 
     def _line(self, place: int) -> int:
-        """Convert the number of a picture row or column to a line number of this side, or a line number to a row or
-        column.
+        """Convert the number of a row or column of the picture to the line number of this side. The same conversion
+        also leads back from a line number to a row or column.
         """
         return len(self._image) - 1 - place if self.backwards else place
 
     def _turned_window(
         self, u: Array, v: Array, offset: Array
     ) -> tuple[list[float], list[float], list[float]]:
-        """Return the sides of the window in the coordinates of this side of the box. The three lists have, for each
-        side of the window, the increment per line outwards, the increment per point along the line, and the offset.
+        """Return the sides of the window in the coordinates of this side of the box, as three lists with one number
+        for each side of the window. The first list has the increments per line outwards, the second the increments per
+        point along the line, and the third the offsets.
         """
         outwards, along = (u, v) if self.upright else (v, u)
         if self.backwards:

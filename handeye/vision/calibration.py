@@ -1,9 +1,9 @@
 """Calibrates the camera to the arm: the arm carries a lamp through the view of the camera, and the camera model is
 fitted to the spots in the pictures.
 
-The arm holds the lamp at known places, and the camera sees the lamp through both lenses. The fit uses these
-sightings, and priors that correspond to the accuracy of a careful mechanic. The error of the arm, about a tenth of
-an inch, limits the accuracy of the fit, and shows in the residual.
+The arm holds the lamp at known places, and the camera sees the lamp through both lenses. The fit uses these sightings,
+and priors that correspond to the accuracy of a careful mechanic. The error of the arm, about a tenth of an inch,
+limits the accuracy of the fit. The residual of the fit shows this error.
 """
 
 from collections.abc import Sequence

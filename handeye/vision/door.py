@@ -113,8 +113,9 @@ def characterise(
     beyond: float = 0.0,
 ) -> Blob | None:
     """Find the centre, width and height of a convex blob. From a seed point inside the blob, scan lines (beams) run
-    from edge to edge, and each gives a better estimate of the centre, until the estimate no longer changes. Returns
-    None if a beam finds no edge.
+    left and right, and then up and down, to the edges. The middle between two opposite edges is a better estimate of
+    the centre, and the next beams start there. The search ends when the estimate no longer changes. Returns None if a
+    beam finds no edge.
 
     The method is for plain faces, because a beam ends at the first edge. The relief of a coin, or a highlight on a
     sweet, ends a beam too early, so that the blob found is too small. `beyond` and `wide` help against this error. To

@@ -40,7 +40,7 @@ def _draw(image: Image, mark: Mark, scale: int) -> None:
 
 
 def _pixel(point: Point, scale: int) -> tuple[int, int]:
-    """Return the pixel of the enlarged picture at the centre of a picture point."""
+    """Return the pixel that shows the centre of a picture point in the enlarged picture."""
     u, v = point
     if not max(abs(u), abs(v)) <= MAX_COORDINATE:
         raise ValueError(f"a mark at ({u:g}, {v:g}) is too far outside the picture")

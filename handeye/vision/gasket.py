@@ -79,7 +79,7 @@ class GasketInspection:
 
 
 def difference(before: Picture, after: Picture) -> NDArray[np.float32]:
-    """Return |after - before| at every point of the first picture, after aligning the unchanged parts of the two
+    """Return |after - before| at every point of the first picture, after aligning the areas that are the same in both
     pictures.
     """
     from handeye.vision.alignment import aligned  # imports OpenCV, which is not needed to make plans
@@ -92,9 +92,9 @@ def inspect(
 ) -> GasketInspection:
     """Compare pictures of a part at `pose` (x, y in m, yaw in rad), taken before and after a gasket was laid on it.
 
-    Both pictures must be taken with the same aim and target voltage, and with the arm at the same position,
-    because the shadow of the arm is the greatest disturbance. The second picture is aligned with the first by the
-    parts that have not changed. The part must have two holes.
+    Both pictures must be taken with the same aim and target voltage, and with the arm at the same position, because
+    the shadow of the arm is the greatest disturbance. The second picture is aligned with the first by the areas that
+    are the same in both pictures. The part must have two holes.
     """
     if len(part.holes) < 2:
         raise BadArgument("two holes are needed to inspect a gasket, but the program gives fewer")
@@ -167,8 +167,9 @@ class _BaseSteps(NamedTuple):
 
 
 class _Steps(NamedTuple):
-    """Thresholds: the least changes of intensity across a border, in the difference and in the picture without the
-    gasket; and the intensity of the face.
+    """Thresholds of intensity. `after` is the least change across a border in the difference between the two pictures.
+    `before` is the least change across a border in the picture without the gasket. `face` is the intensity of the
+    face.
     """
 
     after: float
@@ -255,9 +256,10 @@ def _bulge(new: Scan, old: Scan, view: View, centre: Array, hole: Hole, steps: _
     """Measure the bulge (m) of the border in the difference, around the base's hole at `centre` (in metres, shape
     (3,)).
 
-    The border is that of a union of two discs. Half of this border is nearly undisturbed, so the bulge is measured
-    from the median radius. An aligning pin may hide the border of the base's hole. A ray therefore counts only if, in
-    the picture without the gasket, the border is visible where the ray crosses it.
+    The gasket's hole and the base's hole overlap, and the border is the outline of these two discs together. Half of
+    this border is nearly undisturbed, so the bulge is measured from the median radius. An aligning pin may hide the
+    border of the base's hole. A ray therefore counts only if, in the picture without the gasket, the border is visible
+    where the ray crosses it.
     """
     radii, (middle, reach) = [], _seen(view, centre, hole)
     for scan, step, beyond in ((old, steps.before, steps.face), (new, steps.after, 0.0)):

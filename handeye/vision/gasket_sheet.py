@@ -1,9 +1,9 @@
 """Measures how much of the base's face a gasket leaves bare.
 
 A gasket changes the intensity of the face that it covers, in light and in shadow. Where a piece of the gasket is
-missing, the face looks the same in the pictures before and after the gasket was laid. A pin also looks the same, but
-its intensity usually differs from that of the face, so a point counts only if it looks like the face in the picture
-without the gasket.
+missing, the face looks the same in the pictures before and after the gasket was laid. A pin also looks the same in
+both pictures, but its intensity usually differs from that of the face. Therefore, a point counts only if it looks like
+the face in the picture without the gasket.
 """
 
 from typing import Final

@@ -167,8 +167,8 @@ class Levels(NamedTuple):
         return cls(face=face, dark=dark)
 
     def step(self, search: HoleSearch) -> float:
-        """Return the least step of intensity at an edge: the fraction `contrast` of the difference between the face
-        and a hole, or two levels (a few times the noise) if two levels are more.
+        """Return the least step of intensity at an edge. This is the fraction `contrast` of the difference between the
+        face and a hole, but at least two levels, a few times the noise.
         """
         return max(2.0, search.contrast * (self.face - self.dark))
 
@@ -230,7 +230,9 @@ class HoleFinder:
         return Candidate(Blob(u=u, v=v, width=width, height=height, bounces=0), x, y, diameter)
 
     def _around(self, first: Candidate) -> Array:
-        """Return points (u, v), shape (n, 2), just beyond the edges that beams from the largest hole find."""
+        """Return points (u, v), shape (n, 2), at which the second hole may be. Beams search for dark edges on an arc
+        around the largest hole, `first`. Each point is just beyond an edge.
+        """
         large, small = self._part.holes[:2]
         planned = self._part.at[3] + math.atan2(small.y - large.y, small.x - large.x)
         spokes = np.column_stack([np.cos(planned + ANGLES), np.sin(planned + ANGLES)])

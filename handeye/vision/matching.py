@@ -2,8 +2,8 @@
 
 Nothing is assumed about the appearance of the part: the earlier picture is the model. A vidicon displaces each picture
 slightly. Therefore the position of the part is compared with the position of its surroundings in the same picture. The
-shift of the part relative to its surroundings is measured in fractions of a point, and other differences appear as
-changed points. This comparison is our addition to the vision of 1973.
+comparison measures how far the part has shifted relative to its surroundings, in fractions of a point. Any other
+difference appears as changed points. This comparison is our addition to the vision of 1973.
 """
 
 from typing import Final

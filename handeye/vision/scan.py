@@ -158,8 +158,9 @@ class Scan:
         return np.asarray((nearest > 0) & (nearest < width))
 
     def runs(self, starts: Array, directions: Array) -> tuple[Array, Array]:
-        """Return how far (points) each ray runs within the window, backwards and forwards from its start: two arrays of
-        shape (n,)."""
+        """Return two arrays of shape (n,): how far each ray runs within the window backwards from its start, and how
+        far it runs forwards, in picture points.
+        """
         heights, slopes = self._heights(starts), directions @ self.sides[:, :2].T
         back, ahead = np.full((2, *heights.shape), np.inf)
         np.divide(heights, -slopes, out=ahead, where=slopes < -1e-9)

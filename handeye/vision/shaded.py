@@ -1,4 +1,4 @@
-"""Finds the rough place of a part on which a shadow lies. The part is found by its two large holes.
+"""Finds the rough place of a part on which a shadow lies. The two large holes of the part show where the part is.
 
 In a shadow, a part can be as dark as the lit background, and its outline then does not stand out. Its holes are still
 darker than the face around them, because the same shadow lies on both.
@@ -31,7 +31,7 @@ _RAYS: Final = np.column_stack([np.cos(_ANGLES), np.sin(_ANGLES)])
 
 
 def locate_shaded(scan: Scan, view: View, part: Part) -> tuple[float, float, float] | None:
-    """Find the two large holes of a part in a picture of the region where the part may be. Returns the pose of the
+    """Find the two large holes of a part. The picture shows the region where the part may be. Returns the pose of the
     part (x, y in m, yaw in rad), or None if no such holes are visible. The part must have a region and two holes.
     """
     assert part.region is not None
@@ -55,8 +55,8 @@ def locate_shaded(scan: Scan, view: View, part: Part) -> tuple[float, float, flo
 
 
 def _contrast(scan: Scan, view: View, part: Part, centres: Array, diameter: float) -> Array:
-    """Return by how many levels the face around a hole is brighter than the hole, shape (n,), if the centre of the hole
-    is at each of `centres` (m in W, shape (n, 2)).
+    """Return by how many levels the face around a hole is brighter than the hole, shape (n,). The n values are for n
+    assumed places of the hole's centre, `centres` (m in W, shape (n, 2)).
     """
     wall = _levels(scan, view, part, centres, diameter / 2 + WALL)
     inside = _levels(scan, view, part, centres, diameter / 4)

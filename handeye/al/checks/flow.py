@@ -125,7 +125,9 @@ class _Flow:
         self.trapped = graph.trapped(graph.which(Wait, Advance))
 
     def everywhere(self, check: Callable[[], Iterator[Finding]]) -> Iterator[Diagnostic]:
-        """Yield a check's diagnostics for each statement whose reachable steps are all at fault."""
+        """Yield the diagnostics of a check. A statement can have several steps, for example in each call of a macro.
+        Its diagnostics count only if the check finds a fault in all of its reachable steps.
+        """
         found = {number: diagnostic for number, diagnostic in check() if number in self.reached}
         if not found:
             return

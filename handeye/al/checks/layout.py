@@ -30,8 +30,8 @@ def check_layout(script: Script, source: Source) -> Iterator[Diagnostic]:
 
 
 def _bodies(statements: Sequence[Statement], source: Source) -> Iterator[Diagnostic]:
-    """Report skips that are followed by several lines with deeper indentation, as if all of these lines were
-    skipped.
+    """Report skips that are followed by several lines with deeper indentation. The indentation suggests that all of
+    these lines are skipped, but a skip skips only one instruction.
     """
     for number, statement in enumerate(statements):
         skip = statement.word

@@ -241,7 +241,7 @@ def _not_comparable(words: ByWord) -> Iterator[Diagnostic]:
 
 
 def check_parameters(script: Script) -> Iterator[Diagnostic]:
-    """Report words in braces, in the texts of a macro, that name no parameter of the macro."""
+    """Report each word in braces in the texts of a macro if the macro has no parameter of this name."""
     for macro in script.macros.values():
         known = {parameter.text for parameter in macro.parameters}
         for name, span in (found for s in macro.body if known for found in braced_in(s)):

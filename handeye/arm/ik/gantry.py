@@ -2,8 +2,8 @@
 to the next.
 
 The slides do not turn the hand. The wrist joints therefore follow from the orientation of the hand alone, and the
-slides from the remaining position; the wrist axes need not meet in a point. Further slides are rails, held at a
-fixed position.
+slides from the remaining position; the wrist axes need not meet in a point. If a gantry has more than three slides,
+the others are rails, which are held at a fixed position.
 
 There are two branches: with and without a flipped wrist. Where the first and last wrist axes are in line, only the sum
 of the two joint angles matters. The first wrist joint then keeps its angle if the last wrist joint can reach the angle

@@ -1,9 +1,9 @@
 """For a pose that is out of reach only because its numbers are rounded, finds the nearest configuration within the
 joint limits.
 
-If a pose at the edge of reach is written with few digits, or computed from joints at their limits, no configuration
-may reach the pose exactly. This search finds a configuration whose hand pose agrees with the given pose to within the
-rounding of the given numbers.
+If a pose at the edge of reach is written with few digits, or computed from joints at their limits, it can happen that
+no configuration reaches the pose exactly. This search finds a configuration whose hand pose agrees with the given pose
+to within the rounding of the given numbers.
 """
 
 from collections.abc import Iterable

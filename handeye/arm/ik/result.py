@@ -61,8 +61,8 @@ def choose(arm: ArmModel, found: list[list[float]], near: list[float]) -> IKResu
 
 
 def shared(first: Joint, last: Joint, sense: float, one: float, other: float) -> list[tuple[float, float]]:
-    """Return all pairs of positions of two joints, each within its limits, that together turn the hand by the same
-    angle as the positions `one` and `other`. The axes of the two joints are in line.
+    """Return all pairs of positions of two joints that turn the hand by the same angle as the pair `one`, `other`.
+    Each position is within the limits of its joint. The axes of the two joints are in line.
 
     If `sense` is positive, both joints turn the hand in the same direction; otherwise, in opposite directions. There
     is one pair for each possible number of whole turns. The first joint stays at the position `one` if the last joint

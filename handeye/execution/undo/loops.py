@@ -1,10 +1,11 @@
 """Finds executed steps that left the cell as it was. One lift of the hand reverses all these steps.
 
-Such steps are rounds of a loop, and touches. When a program has jumped back to an earlier step, the cell is assumed to
-be in the same state as after that step if four conditions hold. Since that step, no stage began and the operator was
-not called. The hand holds the same object. Every object was put down at the place where it was taken up, or taken up at
-the place where it was put down. Every screw that was driven in was backed out. Rounds that carry objects to another
-place do not meet the conditions and are reversed step by step.
+Such steps are of two kinds: rounds of a loop, and touches. When a program has jumped back to an earlier step, the cell
+is assumed to be in the same state as after that step if four conditions hold. First, no stage began and the operator
+was not called since that step. Second, the hand holds the same object as after that step. Third, every object was put
+down at the place where it was taken up, or taken up at the place where it was put down. Fourth, every screw that was
+driven in was backed out. Rounds that carry objects to another place do not meet the conditions and are reversed step
+by step.
 
 A touch is a motion of an empty hand that ended on contact, together with the motion that left the object. If a touch
 were reversed step by step, the hand would touch the object a second time. The object may have been pushed after the
@@ -30,14 +31,14 @@ it is taken up. The tolerance is needed because fingers slide on an object.
 def loop_entry(
     done: Sequence[ExecutedStep], hand: Callable[[int], Array | None], *, grasping: bool | None = None
 ) -> int | None:
-    """Return the index of the step to which the last jump back returned, if the state of the cell is the same as at
-    the end of that step. Returns None if there is no such step.
+    """Return the index of the step to which the last jump back led, if the state of the cell is now the same as at the
+    end of this step. Returns None if the state differs, or if no jump counts.
 
-    The jump counts only if all motions since that step were in free air. If a MOVE to the next place of a search were
-    reversed, the hand would end in contact with the object that it met at the previous place. `hand` takes the index
-    of a step, and returns the position of the hand after the step (shape (3,), in W), or None if the hand had not
-    moved yet. `grasping` gives the state of the fingers at the end of the last step. It is True if the fingers have
-    closed, and have not opened after that. It is None if the last step did not change this state.
+    A jump counts only if all motions since the step to which it led were in free air. If a MOVE to the next place of a
+    search were reversed, the hand would end in contact with the object that it met at the previous place. `hand` takes
+    the index of a step, and returns the position of the hand after the step (shape (3,), in W), or None if the hand
+    had not moved yet. `grasping` gives the state of the fingers at the end of the last step. It is True if the fingers
+    have closed, and have not opened after that. It is None if the last step did not change this state.
     """
     last = len(done) - 1
     for head in range(last, 0, -1):
@@ -57,8 +58,8 @@ def loop_entry(
 def _keeps_hold(done: Sequence[ExecutedStep], index: int, grasping: bool | None) -> bool:
     """Return True if the hand holds the same object before and after a step.
 
-    A grasp at the beginning of a loop is not regarded as keeping the same object, because each round may grasp another
-    object.
+    A grasp at the beginning of a loop does not count as keeping hold of the same object, because the hand may grasp a
+    different object in each round.
     """
     here, (before, behind) = done[index], done[index].gap
     after = (
@@ -111,7 +112,7 @@ def _alike(one: ExecutedStep, other: ExecutedStep) -> bool:
 
 
 def _undone_itself(done: Sequence[ExecutedStep], entry: int, hand: Callable[[int], Array | None]) -> bool:
-    """Return True if only memory has changed since the step at `entry` was first executed."""
+    """Return True if nothing but the program's memory has changed since the step at `entry` was first executed."""
     rounds = range(entry, len(done) - 1)
     if any(done[index].called or done[index + 1].enters for index in rounds):
         return False

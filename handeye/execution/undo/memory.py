@@ -20,7 +20,7 @@ REMEMBERED: Final = (
     "pending", "saved", "heights", "counters", "search", "restored", "goal", "place", "travel",
     "finger_line", "grasping", "unlike", "general", "world",
 )  # fmt: skip
-Memory = dict[str, Any]  # by field of the state
+Memory = dict[str, Any]  # from the name of a field of the state to its value
 _UNCHECKED: Final[Memory] = {"done": [], "undoing": None, "unwound": {}, "shots": {}, "found": {}}
 """Fields that steps do not store. These fields are large and known to be valid, so they are replaced by empty ones
 before the memory of a step is checked.
@@ -39,8 +39,8 @@ def changed(before: dict[str, bytes], after: dict[str, bytes]) -> dict[str, byte
 
 
 def recalled(run: ExecutionContext, before: dict[str, bytes]) -> Memory:
-    """Decode stored memory. Returns the values by field of the state. Raises ValueError if the values do not fit the
-    running program.
+    """Decode stored memory. Returns a dictionary from each field of the state to its value. Raises ValueError if the
+    values do not fit the running program.
     """
     if not before.keys() <= set(REMEMBERED):
         raise ValueError("the record contains data that no program can produce")

@@ -2,7 +2,7 @@
 path.
 
 The arm is stopped by force that has built up in any direction since the reversal began, and by early contact of
-closing fingers. Closing fingers meet in the middle of the hand. If an object is beside the middle, one finger touches
+closing fingers. Closing fingers meet in the middle of the hand. If an object is not in the middle, one finger touches
 the object first, while the gap is still too wide. If the fingers closed on such an object, they would push the object
 to the middle, or push the arm, and the final gap would look right.
 """
@@ -142,8 +142,8 @@ arm is not exact.
 
 
 def stands(run: ExecutionContext, way: RecordedPath, grasps: Callable[[ExecutedStep], bool]) -> bool:
-    """Return True if the resistance shows that the held object stands on a surface: the path leads to the place where
-    the object was grasped, and the hand is nearly at this place.
+    """Return True if the resistance shows that the held object stands on a surface. This is the case if the path leads
+    to the place where the object was grasped, and the hand is nearly at this place.
 
     `grasps` returns True if a step grasps an object, or grips it more firmly.
     """

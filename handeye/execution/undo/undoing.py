@@ -278,8 +278,8 @@ def _turn_out(run: ExecutionContext, done: ExecutedStep) -> UndoFailure | None:
 def _off_hold(
     run: ExecutionContext, kept: float, closer: float, wider: float, *, holding: bool = True
 ) -> UndoFailure | None:
-    """Check that the gap is that of the executed step. The gap may be smaller by `closer` (m) at most, or larger by
-    `wider` (m) at most.
+    """Check that the present gap is close to `kept`, the gap of the executed step (m). The present gap may be smaller
+    by `closer` (m) at most, or larger by `wider` (m) at most.
     """
     gap = run.drive.sensed.gap
     if as_before(gap, kept, closer, wider):

@@ -23,8 +23,8 @@ def error_sentence(number: int, cause: Cause | None) -> str:
 
 
 def call_sentence(message: str, error: int | None, cause: Cause | None) -> str:
-    """Write the sentence for a call to the operator. This is the program's own message. Without a message, it is the
-    sentence of the error, and without an error, that of the cause.
+    """Write the sentence for a call to the operator: the program's own message, if there is one. Without a message,
+    the function writes the sentence of the error. Without an error, it writes the sentence of the cause.
     """
     if message:
         return message

@@ -191,7 +191,7 @@ def reach_sentence(arm: NamedArm, reason: ReachFailure) -> str:
 
 
 def named(arm: NamedArm, joint: int) -> str:
-    """Write the number, from 1, and the name of a joint."""
+    """Write the name of a joint, and its number, counted from 1."""
     return f"joint {joint + 1} ({arm.joints[joint].name})"
 
 

@@ -43,8 +43,8 @@ class SwitchesHard(CauseRecord, frozen=True, kw_only=True):
 
 
 class GapJumped(CauseRecord, frozen=True, kw_only=True):
-    """The gap (m) has changed faster than the fingers can move. `held` is True if the fingers touched an object or
-    an object kept them apart.
+    """The gap (m) has changed faster than the fingers can move. `held` is True if there was an object at the fingers:
+    the fingers touched it, or it kept them apart.
     """
 
     gap: float
@@ -77,8 +77,8 @@ class GapStill(CauseRecord, frozen=True, kw_only=True):
 
 
 class ForceInAir(CauseRecord, frozen=True, kw_only=True):
-    """The hand senses a force (N, table axes, before taring) where it should touch nothing. `load` is the declared
-    weight (N).
+    """The hand senses a force (N, table axes, before taring) where it should touch nothing. `load` is the weight (N)
+    that the program has declared for the object in the hand.
     """
 
     force: Vector3

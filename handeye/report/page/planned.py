@@ -51,7 +51,7 @@ def planned_section(
     searches: Sequence[Search],
     stages: Sequence[Stage],
 ) -> Markup:
-    """Return the section with ends of motions, shifted goals and searches."""
+    """Return the section on where motions ended, which goals were moved, and which places the searches tried."""
     return section(
         "planned",
         "Planned and found",

@@ -36,7 +36,7 @@ def drawing(
 
 
 def curve(xs: Array, ys: Array, **attributes: str) -> Markup:
-    """Draw a line through points, without the points that make no visible difference."""
+    """Draw a line through points. Points that make no visible difference are left out."""
     kept = kept_points(np.column_stack([xs, ys]), TOLERANCE)
     way = "M" + "L".join(f"{x:.1f},{y:.1f}" for x, y in kept.tolist())
     return element("path", d=way, **attributes)

@@ -1,4 +1,4 @@
-"""Builds the section with the times of the run by stage, compared with the times of 1973."""
+"""Builds the section that compares the time of each stage with the time of 1973."""
 
 from collections.abc import Iterator
 from typing import Final

@@ -270,7 +270,9 @@ def _camera(model: Any, number: int) -> dict[str, Any]:
 
 
 def _distance(model: Any, eye: Array, forward: Array) -> float:
-    """Return the distance (m) from a camera, along its line of sight, to the height of the scene's centre."""
+    """Return the distance (m) from a camera to the point where its line of sight reaches the height of the scene's
+    centre.
+    """
     drop = eye[2] - model.stat.center[2]
     return float(-drop / forward[2]) if drop > 0 and forward[2] < -0.1 else float(model.stat.extent)
 

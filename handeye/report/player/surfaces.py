@@ -13,8 +13,8 @@ from handeye.core.pose import Array
 
 SIDES: Final = 32  # Sides of the prism that stands for a cylinder
 CREASE: Final = np.cos(np.radians(35.0))
-"""Cosine of the angle at which an edge between two faces becomes sharp. If the faces meet at a smaller angle, they are
-drawn as one curved surface.
+"""Cosine of the smallest angle between the normals of two adjacent faces at which their common edge is drawn as sharp.
+If the angle is smaller, the faces are drawn as one curved surface.
 """
 
 
@@ -66,7 +66,7 @@ def surface(model: Any, shape: int) -> Surface | None:
 
 
 def rotation(quaternion: Array) -> Array:
-    """Return the rotation matrix of a unit quaternion w, x, y, z, shape (3, 3)."""
+    """Return the rotation matrix, shape (3, 3), of a unit quaternion w, x, y, z."""
     w, x, y, z = quaternion
     return np.array(
         [

@@ -56,8 +56,8 @@ class Delay:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Branch:
-    """`BRANCH`: go to `then` if the flag of any listed sensor is on. If a sensor is listed with a negative number, go
-    to `then` if its flag is off.
+    """`BRANCH`: go to `then` if the flag of any listed sensor is on. A sensor with a negative number in the list
+    counts if its flag is off.
     """
 
     then: int
@@ -108,8 +108,8 @@ def arrived(state: State) -> bool:
 
 
 def one_cycle(state: State, senses: Senses, speeds: Mapping[int, int]) -> tuple[State, Ending]:
-    """Let a cycle pass. If a motion ends in this cycle, also say how it ended. `speeds` are in hundredths of a unit
-    per cycle.
+    """Let a cycle pass. If a motion ends in this cycle, also return how the motion ended. `speeds` are in hundredths
+    of a unit per cycle.
     """
     new = crossed(state, senses(state.cycle, state.positions))
     ending: Ending = "force" if new else "goal" if arrived(state) else ""
@@ -131,7 +131,7 @@ def one_cycle(state: State, senses: Senses, speeds: Mapping[int, int]) -> tuple[
 def execute(
     statement: Statement, state: State, senses: Senses, speeds: Mapping[int, int]
 ) -> tuple[State, Ending]:
-    """Execute a statement other than BRANCH. If the statement is a motion, also say how the motion ended."""
+    """Execute a statement other than BRANCH. If the statement is a motion, also return how the motion ended."""
     ending: Ending = ""
     match statement:
         case Sensor(sensor=None):

@@ -2,9 +2,9 @@
 
 The motors have the numbers of the rectilinear arm: 4 is X, 3 is Y, 2 is Z (down), 8 is the roll of a hand that points
 straight down, and 11 is the gap of the fingers. The unit of the slides is .001 inch, and the unit of the roll is .01
-degree. All slides are at 0 where the tool is at x = 24, y = 42 and z = 5 in; at roll 0, the finger line is along Y.
-Sensors 2 to 4 read the force on the hand along X, Y and Z (up) in grams, and sensors 9 and 10 read the switches of the
-fingers. A cycle takes a servo period of the arm, 1/60 s, instead of 10 ms.
+degree. When all slides are at 0, the tool is at x = 24, y = 42 and z = 5 in. When the roll is 0, the finger line is
+along Y. Sensors 2 to 4 read the force on the hand along X, Y and Z (up) in grams, and sensors 9 and 10 read the
+switches of the fingers. A cycle takes a servo period of the arm, 1/60 s, instead of 10 ms.
 
 A remark `* NAME IS &n` reads the height NAME from the hand-over record, and puts it into the variable n as a position
 of motor 2. A remark `* &n IS NAME` hands the variable n over as the height NAME. ML has no word with which a program
@@ -124,7 +124,9 @@ class SlideAxes(Axes):
         return self.tool.period
 
     def power(self, on: bool) -> None:
-        """Do nothing: the servo of the arm is a program in the computer, which ends when the brakes are set."""
+        """Do nothing. The servo of the arm is a program in the computer. This program ends when the brakes are set, so
+        there is no power to switch.
+        """
 
     def put(self, goal: Array) -> None:
         z, y, x, self.roll, gap = map(float, goal)

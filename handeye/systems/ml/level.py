@@ -158,7 +158,9 @@ class Level(ABC):
 
     @abstractmethod
     def statement(self, number: int) -> None:
-        """Tell the level which statement is executed from now on; 0 for a line that is not stored."""
+        """Give the level the number of the statement that is executed from now on. The number is 0 for a line that is
+        not stored.
+        """
 
     @abstractmethod
     def emergency(self, cause: str, statement: int) -> None:

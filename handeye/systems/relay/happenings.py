@@ -13,7 +13,7 @@ from handeye.program.events import AnyEvent, SystemEvent
 
 
 class LegStarted(SystemEvent, frozen=True, kw_only=True):
-    """A leg takes the arm over. `gap` is the gap of the fingers (m), and `named` has the names of the values in the
+    """A leg takes over the arm. `gap` is the gap of the fingers (m), and `named` has the names of the values in the
     hand-over record.
     """
 

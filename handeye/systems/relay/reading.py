@@ -34,7 +34,7 @@ class LegLine:
 
 
 def parsed(source: Source) -> tuple[list[LegLine], list[Diagnostic]]:
-    """Return the legs of a relay, and the mistakes in it."""
+    """Return the legs of a relay, and the mistakes in the relay's text."""
     legs: list[LegLine] = []
     found: list[Diagnostic] = []
     start = 0

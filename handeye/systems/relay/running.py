@@ -412,5 +412,5 @@ class RunningRelay(RunningSystem):
             self._held.append(event)
 
     def _stage(self, name: str) -> str:
-        """Return the stage of the relay that a program calls `name`."""
+        """Return the stage of the relay that has the name `name` in a program."""
         return name if name in self._listing.stages else self.leg.stage

@@ -115,7 +115,7 @@ def _back_and_forth(first: int, arm: int, moves: int, steps: int) -> str:
 
 
 def calculating(calculations: int, moves: int = 20) -> str:
-    """Return a program that calculates before each move, with at most 100 calculations in a line."""
+    """Return a program with `calculations` additions before each move. A line has at most 100 additions."""
     whole, rest = divmod(calculations, 100)
     sums = [f"A = 1{' + 1' * count}" for count in [100] * whole + [rest] * bool(rest)]
     lines = ["WAY = 24", f"FOR N = 1 TO {moves}", *sums, "MOVE X1 BY WAY", "WAY = - WAY", "NEXT N"]

@@ -251,7 +251,7 @@ class RunningPlan(RunningSystem):
         return round(self.time - before, 6)
 
     def _friction(self, seconds: float) -> Iterator[FrictionMeasured]:
-        """Yield the event for a friction measurement that took `seconds`, unless nothing was measured."""
+        """Yield the event for a friction measurement that took `seconds`, or nothing if no friction was measured."""
         drive = self.state.drive
         if drive.links is not None:
             joints = ArmNames.of(self.arm).joints
@@ -372,8 +372,8 @@ class PlanSystem(System):
         return plan.arm, plan.arm_digest
 
     def check(self, setup: Setup) -> None:
-        """Raise InvalidInput if the plan was made for another arm, or if the task does not have the world and the
-        faults of the setup.
+        """Raise InvalidInput if the plan was made for another arm, if the task cannot have the world of the setup, or
+        if the task lacks one of the setup's faults.
         """
         world, plan = setup.world, plan_of(setup)
         task(setup.task).check_arm(plan)

@@ -56,8 +56,9 @@ class PlanLeg(RunningPlan, RunningLeg):
                 state.world.moved[name] = Position(at=(x, y, z, o, a, t))
 
     def _found(self, stage: str, kind: Kind, record: HandOver) -> Mapping[str, np.ndarray]:
-        """Return the values of the record that this program knows by name. Raises Refused if the stage needs a value
-        that neither this program nor the record has, or if the record's value is of another kind than the stage needs.
+        """Return the values of the record that this program knows by name. Raises Refused in two cases: neither this
+        program nor the record has a value that the stage needs, or the value in the record is not of the kind that the
+        stage needs.
         """
         program, state = self.plan.program, self.state
         own = {"difference": {*state.saved}, "height": {*state.heights}, "place": {*program.positions}}[kind]
@@ -137,7 +138,7 @@ class PlanLeg(RunningPlan, RunningLeg):
 
 
 class PlanLegs(LegSystem):
-    """Legs of the system of 1973."""
+    """The legs of a relay that are stages of a plan of motions."""
 
     system = PLANNED
     state = ExecutionState

@@ -95,8 +95,8 @@ def _add_plate(shaper: Shaper, world: InsertionWorld) -> None:
 
 
 def _add_holder(shaper: Shaper, *, empty: bool) -> None:
-    """Add a holder like the holder of the pump's pins, and put the pin into the holder. The pin's origin is in the
-    plane of the pin's shoulder. If the holder is empty, the pin lies on the floor, where the arm cannot touch it.
+    """Add the pin, and a holder like the holder of the pump's pins. The pin stands in the holder or, if `empty` is
+    True, lies on the floor, where the arm cannot touch it. The pin's origin is in the plane of the pin's shoulder.
     """
     d, (x, y) = dimensions(), HOLDER
     radius, chamfer, height = d("pin_holder.hole_radius"), d("pin_holder.chamfer"), d("pin_holder.height")
@@ -139,7 +139,7 @@ the pin's descent.
 
 
 class Witness(PhysicsStepper):
-    """Steps the physics, and records how pin and plate touch after each step with a contact."""
+    """Steps the physics, and records the contacts of pin and plate after each step."""
 
     def __init__(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
         super().__init__(model, data)

@@ -30,7 +30,7 @@ def add_arm(spec: mujoco.MjSpec, world: ArmWorld) -> None:
 
 
 def _differ(arm: mujoco.MjSpec, build: ArmBuild) -> None:
-    """Change the arm as designed into the arm of a world."""
+    """Add the errors of a world to an arm that was built as designed."""
     for i, friction in enumerate(build.friction):
         link, joint = arm.body(f"link{i + 1}"), arm.joint(f"j{i + 1}")
         link.mass *= build.link_mass[i]

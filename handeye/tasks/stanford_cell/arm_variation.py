@@ -151,8 +151,9 @@ def _friction() -> Iterator[Quantity]:
     first, *others = numbered(Uniform, *(mean / 4 for mean in means)).items()
     yield from group(
         "arm.friction", dict([first]), _TORQUES[:1], what, nominal=means[0], least=0.0,
-        unsourced="the friction of the other joints is inferred from the paper: these joints hold their weight when "
-        f"the arm is released. Joint 1 carries no weight, so the paper says nothing about its friction. {DOUBLED}",
+        unsourced="the friction of the other joints is inferred from the paper: when the arm is released, these "
+        "joints do not move under the weight of the links. Joint 1 carries no weight, so the paper says nothing "
+        f"about its friction. {DOUBLED}",
     )  # fmt: skip
     yield from group(
         "arm.friction", dict(others), _TORQUES[1:],

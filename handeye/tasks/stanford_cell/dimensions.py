@@ -133,8 +133,8 @@ def base_top() -> float:
 
 
 def pin_seat(chamfer: float, radius: float) -> float:
-    """Return the height (m) of a pin's shoulder above the mouth of its hole when the shoulder rests in the hole's 45
-    degree chamfer. The height is negative if the shoulder is below the mouth. `chamfer` and `radius` are in m.
+    """Return the height (m) of a pin's shoulder above the mouth of the hole. The shoulder rests in the 45 degree
+    chamfer of the hole. The height is negative if the shoulder is below the mouth. `chamfer` and `radius` are in m.
     """
     return min(0.0, dimensions()("pin.body_radius") - radius - chamfer)
 

@@ -24,8 +24,8 @@ choice: more than the few micrometres by which welds yield.
 
 
 class ClampedStepper(PhysicsStepper):
-    """Advances the physics of the pump's cell. In a clamped stack, this stepper leaves out the shanks that touch no
-    hole.
+    """Advances the physics of the pump's cell. In a clamped stack, this stepper does not search for contacts of the
+    shanks that are clear of all holes.
     """
 
     def __init__(

@@ -70,7 +70,7 @@ def exported(world: PumpWorld, truth: Truth, keyframe: str) -> ExportedScene:
 
 def _densities(spec: mujoco.MjSpec, cast: float) -> dict[str, float]:
     """Return the densities (kg/m3) of the solids that consist of a single metal. `cast` is the factor by which the
-    densities of base and top differ from the design in this world.
+    densities of base and top in this world differ from those of the design.
     """
     steel = spec.find_default("shank")
     assert steel is not None

@@ -112,7 +112,7 @@ class ScheduleRunner:
         return ScheduleRun(self._place, runner, pause, self._unbraked, self._lost)
 
     def _waits(self, pause: Pause) -> bool:
-        """Return True if the pause belongs to an interruption, so that it does not end the schedule."""
+        """Return True if the pause belongs to an interruption. Such a pause does not end the schedule."""
         return isinstance(pause.met, Interruption)
 
     def _interrupted(

@@ -126,8 +126,8 @@ def draw(
     number: int, seed: int, worlds: Sequence[tuple[int, Level]], starts: Sequence[Sequence[int]], catalogue: Catalogue,
     stage_of: Sequence[Sequence[int]],
 ) -> Schedule:  # fmt: skip
-    """Draw the schedule that has this number in the series of the seed. `starts` and `stage_of`
-    contain one list for each world.
+    """Draw one schedule. Each seed gives a series of schedules, and `number` is the place of this schedule in the
+    series. `starts` and `stage_of` contain one list for each world.
     """
     chance = random.Random(f"{seed} {number}")  # noqa: S311 - choices, not secrets
     which = chance.randrange(len(worlds))
@@ -149,7 +149,7 @@ def draw(
 
 
 def _fault(chance: random.Random, kind: FaultKind, stage: int) -> Fault:
-    """Draw a fault of a kind that begins with a stage. The fault has its usual size or a random size."""
+    """Draw a fault of a given kind. The fault begins with the stage, and has its usual size or a random size."""
     usual = kind.usual(stage)
     if kind.size is None or chance.random() < 0.5:
         return usual

@@ -232,7 +232,7 @@ def _late(failed: Findings, schedule: Schedule, runner: Runner, start: Checkpoin
 def shrunk(
     failing: ScheduleResult, schedule: Schedule, fails: Callable[[Schedule], ScheduleResult]
 ) -> tuple[Schedule, ScheduleResult]:
-    """Reduce a failing schedule by removing one element at a time, as long as the schedule still fails. Returns
+    """Reduce a failing schedule: remove one element at a time if the schedule fails without this element, too. Returns
     the reduced schedule and its result."""
     for fewer in schedule.without():
         tried = fails(fewer)

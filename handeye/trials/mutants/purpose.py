@@ -61,8 +61,8 @@ def calls_of(steps: Sequence[int], program: Program, graph: OutcomeGraph) -> tup
 
 
 def _specific(program: Program, number: int) -> set[int]:
-    """If a step has guards, return the errors of the guards. If a step without guards only checks or examines, return
-    all its errors except that of the watchdog.
+    """Return the errors that a step exists to raise. These are the errors of its guards. If the step has no guards and
+    only checks or examines, they are all its errors except that of the watchdog. For any other step, the set is empty.
     """
     operation = program.steps[number].operation
     if operation.guards:

@@ -1,5 +1,5 @@
 """Tries the mutants of a program. The proof comes first. If the proof does not refuse a mutant, the mutant is run with
-the faults that the missing check is meant to notice.
+the faults that would be noticed by the check that the mutant lacks.
 """
 
 from collections import Counter

@@ -26,7 +26,7 @@ class StageTime(Record, frozen=True, kw_only=True):
 
 
 class SearchPlaces(Record, frozen=True, kw_only=True):
-    """How many places the searches around one position tried, as a distribution over these searches."""
+    """The distribution of the number of places that a search around one position tried."""
 
     at: str
     n: int

@@ -197,7 +197,7 @@ class _Measured:
 
     @property
     def limiting(self) -> Iterator[LimitingPart]:
-        """The part that most often determined the margins, for each level."""
+        """For each level, the part of the pump that most often determined the margins."""
         for parts in self._parts.values():
             part, count = parts.most_common(1)[0]
             yield LimitingPart(part=part, share=count / parts.total())

@@ -106,8 +106,8 @@ def simplified(numbers: Array, groups: Sequence[Sequence[int]], tries: int) -> G
 
 
 def pushes(campaign: Campaign, kind: FailureKind, found: Sequence[NearWorld]) -> list[Push]:
-    """Return, for each quantity, how far it deviates from its middle value in the failing worlds. The quantity that
-    must deviate in the largest number of the nearest worlds comes first.
+    """Return, for each quantity, how far it deviates from its middle value in the failing worlds. The first quantity
+    is the one whose deviation is needed for the failure in the largest number of the nearest worlds.
     """
     mine = [each for each in campaign.failing if each.kind == kind]
     if not mine:

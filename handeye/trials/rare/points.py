@@ -55,8 +55,8 @@ class WorldSpace:
         return replace(self._base, seed=point.noise, overrides=overrides)
 
     def deviations(self, numbers: Array) -> Array:
-        """Return how far each quantity is from its middle, in standard deviations, shape (n,). A number that would
-        take its quantity beyond the range counts only up to the end of the range.
+        """Return how far each quantity is from the middle of its range, in standard deviations, shape (n,). If a
+        number would lead beyond the range, the quantity is at the end of the range.
         """
         return np.clip(numbers, -self._widest, self._widest)
 

@@ -17,8 +17,9 @@ _MM: Final = 1e3  # per metre
 
 
 class Reserves(Observer):
-    """Records, by name, the smallest reserves that a program had left: places of a search, rounds of a counted loop,
-    and the distance (mm) of each measurement from the limit at which the program would have called the operator.
+    """Records, by name, the smallest reserves of a program. The reserve of a search is the number of untried places,
+    and the reserve of a counted loop is the number of rounds left. The reserve of a measurement is its distance (mm)
+    from the limit at which the program would have called the operator.
 
     A check is left out if the next step tests for the error of the check: if such a check fails, the program does not
     stop, but goes on in a different way.

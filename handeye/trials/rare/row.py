@@ -101,7 +101,7 @@ def usual(rows: Sequence[RareRow]) -> Usual:
 
 def limits_left(checks: Mapping[str, Check]) -> dict[str, float]:
     """Return how far each finding is within its limit, in the unit of the finding. A finding exactly at its limit is
-    left out, because such a finding is a count, and the count is right.
+    left out: only counts reach their limits exactly, and a count at its limit is right.
     """
     found = {name: check_left(check) for name, check in checks.items() if not check.caution}
     return {name: left for name, left in found.items() if left or not checks[name].ok}
@@ -129,7 +129,9 @@ def _least(left: Mapping[str, float], known: Mapping[str, float]) -> Margin:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RareTrial(Trial):
-    """Runs a plan in the world of a case, and records how far the program was from each failure (its reserves)."""
+    """Runs a plan in the world of a case, and records the reserves of the program: how far the program was from each
+    failure.
+    """
 
     row: ClassVar[type[Row]] = RareRow
 

@@ -85,7 +85,7 @@ def subset_simulation(
 
     Args:
         first: worlds drawn independently; each further level has as many worlds.
-        stream: returns the random number generator of a level, given by its number.
+        stream: function that takes the number of a level and returns the level's random number generator.
     """
     chains = [[_State(*each)] for each in zip(first, margins(0, first), strict=True)]
     level = _level(chains, Level(number=0, runs=len(first), threshold=0, share=0, failed=0, variation=0))
@@ -125,8 +125,8 @@ class _Walk:
         self._runs = self._accepted = 0
 
     def chains(self, length: int) -> list[_Chain]:
-        """Return chains that have `length` states together. In each round, every chain that is not yet complete
-        advances by one state.
+        """Return the chains of the next level. The sum of their numbers of states is `length`. In each round, every
+        chain that is not yet complete advances by one state.
         """
         least, more = divmod(length, len(self._seeds))
         lengths = [least + (number < more) for number in range(len(self._seeds))]
@@ -139,7 +139,7 @@ class _Walk:
 
     @property
     def told(self) -> Level:
-        """The level, without the values that its complete sample determines."""
+        """The level with the values that are known before its sample is complete. The other values are 0."""
         return Level(
             number=self._last.number + 1, runs=self._runs, threshold=0, share=0, failed=0, variation=0,
             acceptance=self._accepted / self._runs, step=self._step,
@@ -157,8 +157,8 @@ class _Walk:
         self._step = min(1.0, max(SMALLEST_STEP, step))
 
     def _candidate(self, point: Point) -> Point:
-        """Propose a world. If every proposal were accepted, the numbers of the worlds would stay independent and
-        standard normal.
+        """Propose a world near the world `point`. If every proposal were accepted, the random numbers that describe
+        each world would stay independent and standard normal.
         """
         drawn, kept = self._rng.standard_normal(len(point.numbers)), math.sqrt(1 - self._step**2)
         redrawn, noise = self._rng.random() < REDRAWN, int(self._rng.integers(LARGEST_SEED, endpoint=True))
@@ -166,7 +166,7 @@ class _Walk:
 
 
 def _level(chains: Sequence[_Chain], told: Level) -> Level:
-    """Complete a level with the threshold, the share and the failures that its sample gives."""
+    """Complete a level: compute its threshold, its share and its number of failures from the sample of the level."""
     margins = sorted(state.margin for chain in chains for state in chain)
     threshold, failed = _threshold(margins), sum(margin <= FAILED for margin in margins)
     below = sum(margin <= threshold for margin in margins)

@@ -26,7 +26,9 @@ def levels_table(found: Estimated) -> PlainTable:
 
 
 def level_cells(found: Estimated) -> Iterator[tuple[str, ...]]:
-    """Yield the cells of the table of levels: the part that limits the runs of a level, then its figures."""
+    """Yield the rows of the table of levels. The first cell of a row names the part of the pump that limits the runs
+    of the level; the other cells hold the figures of the level.
+    """
     for level, limiting in zip(found.levels, found.limiting, strict=True):
         part = f"{limiting.part} ({100 * limiting.share:.0f} %)" if limiting.part else "nothing"
         yield (

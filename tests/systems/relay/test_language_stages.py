@@ -120,7 +120,7 @@ def test_each_leg_can_begin_after_the_stages_of_the_careful_program() -> None:
 def test_a_stage_or_language_without_a_leg_is_refused_with_the_reason() -> None:
     with pytest.raises(NoSuchName, match="did you mean"):
         command._chosen(["put on the gaskets"], None)
-    with pytest.raises(BadArgument, match="no leg in MAL: the fingers always stand along Y"):
+    with pytest.raises(BadArgument, match="no leg in MAL: the line through both finger tips"):
         command._chosen([GASKET], ["MAL"])
     with pytest.raises(BadArgument, match="no leg in TRIG"):
         command._chosen(["find the base"], ["TRIG"])

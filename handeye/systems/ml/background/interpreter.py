@@ -178,8 +178,8 @@ class Interpreter:
         self.memory.typed[:] = [*self.memory.typed[1 - KEPT :], text]
 
     def again(self, *, onward: bool) -> None:
-        """After a stop, enable the arm. Then continue with the next statement if `onward` is True, or with the
-        statement that was stopped if not. Raises MlError (M14) while the cause of an emergency persists.
+        """After a stop, enable the arm. Then continue with the next statement if `onward` is True; if it is False,
+        repeat the statement that was stopped. Raises MlError (M14) while the cause of an emergency persists.
         """
         memory = self.memory
         for level in (self._own, self.level):

@@ -91,7 +91,7 @@ def put_away(spec: mujoco.MjSpec, name: str) -> None:
 
 
 def arm_of(bench: Bench, world: ArmWorld) -> RectilinearArm:
-    """Return the arm of a world, with its faults."""
+    """Return the arm of a world, with the faults that the world gives the arm."""
     faults = () if world.spec is None else world.spec.faults
     faulty = any(fault.name.partition(".")[0] in _OF_THE_ARM for fault in faults)
     return FaultyArm(bench, world) if faulty else RectilinearArm(bench, world)

@@ -75,7 +75,7 @@ def add_hopper(spec: mujoco.MjSpec, friction: float, place: Place = ORIGIN, rim:
 
 
 def hold_firmly(spec: mujoco.MjSpec, parts: Sequence[str] = ()) -> None:
-    """Let friction hold light parts in the fingers without creep.
+    """Change the contacts of the fingers so that light parts do not slowly slip out.
 
     Args:
         parts: names of the light parts, if the fingers also carry heavy parts.

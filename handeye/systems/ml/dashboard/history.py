@@ -57,7 +57,7 @@ class Course:
 
 
 class History:
-    """All tables at all cycles. Words that have always been 0 have no course."""
+    """All tables at all cycles. `courses` has no entry for a word that was 0 at all times."""
 
     def __init__(self, head: Head, courses: Mapping[int, Course]) -> None:
         self.head, self.courses = head, courses

@@ -61,7 +61,9 @@ def changes_of(tape: Tape) -> Iterator[Changes]:
 
 
 def _compressed(changes: Changes) -> bytes:
-    """Compress changes: sort them by words, and write only the differences, which compress well."""
+    """Compress changes. The changes are sorted by word, and each is stored as its difference from the previous change.
+    Such differences compress well.
+    """
     ordered = changes[np.argsort(changes[:, 1], kind="stable")]
     return zlib.compress(np.diff(ordered, axis=0, prepend=0).T.astype("<i4").tobytes())
 
@@ -250,7 +252,7 @@ class _Words(_Source):
 
 
 class _Records(_Source):
-    """A table that is kept as a list of records, which are replaced when they change."""
+    """A table that is kept as a list of records. When a line changes, a new record replaces the old one."""
 
     def __init__(self, segment: Segment, memory: MutableRecord) -> None:
         self._segment, self._memory = segment, memory

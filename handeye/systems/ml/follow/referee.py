@@ -64,7 +64,7 @@ def distance(at: Array, outline: Array) -> float:
 
 
 def along(outline: Array, count: int = 20) -> Array:
-    """Return places along an outline, `count` of them on each side."""
+    """Return places along a polygonal outline: `count` places on each edge of the polygon."""
     ends = np.roll(outline, -1, axis=0)
     shares = np.arange(count) / count
     return np.concatenate(
@@ -73,7 +73,9 @@ def along(outline: Array, count: int = 20) -> Array:
 
 
 def turning_number(touches: Array, centre: Array) -> int:
-    """Return how many times the path through all touches and back to the first touch goes around `centre`."""
+    """Connect all touches in order, and the last touch with the first. Returns how many times this path goes around
+    `centre`.
+    """
     turns = np.unwrap(np.arctan2(*(np.concatenate((touches, touches[:1])) - centre).T))
     return round(float(turns[-1] - turns[0]) / (2 * np.pi)) if len(touches) else 0
 

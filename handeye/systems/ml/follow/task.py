@@ -81,7 +81,7 @@ class Laid(Record, frozen=True, kw_only=True):
 
 
 class Plate(Mechanism[Laid]):
-    """Remembers the true place of the plate before the program began. Only the referee knows this place."""
+    """Remembers where the plate truly lay when the program began. Only the referee knows this place."""
 
     name, kind = LAID, Laid
 

@@ -7,8 +7,8 @@ sensors.
     AGAIN: SENSOR WAND -1 1
     BRANCH HOME AGAIN WAND
 
-Statements are numbered 5, 10, 15 and so on. Remarks, which begin with `*`, are copied. A program can consist of several
-texts, like decks of cards that are read one after the other.
+Statements are numbered 5, 10, 15 and so on. Remarks, which begin with `*`, are copied to the assembled text. A program
+can consist of several texts, like decks of cards that are read one after the other.
 """
 
 import re

@@ -74,7 +74,7 @@ class _Check:
         self._sides = commanded(Flow(self._statements), starts)
 
     def parameters(self, line: Line) -> Iterator[Diagnostic]:
-        """Check that the variables, the sensors, and the lines and words of tables exist."""
+        """Check that the statement's variables, sensors, table lines and table words exist."""
         command, shape = COMMANDS[line.statement.code], SHAPES.get(line.statement.code)
         for at, value in enumerate(line.statement.parameters):
             if not isinstance(value, int):
@@ -111,7 +111,7 @@ class _Check:
             yield from mistakes[0]
 
     def places(self, line: Line) -> Iterator[Diagnostic]:
-        """Check that the statements and POINTs to which a line refers exist."""
+        """Check that each statement and each POINT to which a line refers exists."""
         if self._loads:  # the program may be replaced
             return
         code, values = line.statement.code, line.statement.parameters

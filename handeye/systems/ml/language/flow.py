@@ -26,8 +26,8 @@ class Flow:
 
     def ways(self, number: int, *, likely: bool = False) -> tuple[int | None, ...]:
         """Return the numbers of the statements that may follow a statement; None stands for the end. A computed branch
-        may lead to any statement. If `likely` is True, a computed branch leads only to those statements whose number a
-        BAL or a LOAD of the program puts into the branch's variable.
+        may lead to any statement. A computed branch takes the number of the next statement from a variable. If
+        `likely` is True, only the numbers that a BAL or a LOAD of the program puts into this variable are considered.
         """
         return tuple(dict.fromkeys(self._ways(number, likely)))
 

@@ -1,4 +1,4 @@
-"""Statements of ML, and their standard text, which the parser reads back."""
+"""Statements of ML, and their standard text. From this text, the parser makes the same statements again."""
 
 from typing import Final
 

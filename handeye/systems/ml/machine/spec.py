@@ -46,7 +46,7 @@ class AnalogInput:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ArmSpec:
-    """An arm with its wiring. Inputs and outputs have the numbers of their lines in the tables."""
+    """An arm with its wiring. Inputs and outputs have the same numbers as in the tables of MOS."""
 
     side: Side
     motors: tuple[MotorSpec, ...]

@@ -18,8 +18,8 @@ SIDES: Final[tuple[Side, ...]] = ("right", "left")
 
 
 class MlState(SystemState, kw_only=True):
-    """The complete state of a run: both levels, the stored program, and perfect motors. The state of a simulated arm
-    is in the cell.
+    """The complete state of a run: the background level, the real-time level, the stored program, and perfect motors.
+    The state of a simulated arm is in the cell.
     """
 
     program: ProgramMemory = field(default_factory=ProgramMemory)

@@ -1,4 +1,6 @@
-"""The faults that the job `support` can have, and the sentences for the numbers that its program prints."""
+"""The faults that the job `support` can have. The program of the job prints numbers; this module also has the sentence
+that each number stands for.
+"""
 
 from typing import Final
 

@@ -1,4 +1,4 @@
-"""Lets another program do the next leg of a relay."""
+"""Replaces the program of the next leg of a relay by another program."""
 
 import msgspec
 

@@ -30,8 +30,8 @@ _TRIG_HAND: Final = "the hand of TRIG opens to 1.3 in, and TRIG has no words for
 WITHOUT_LEG: Final = {
     ("put on the gasket", "TRIG"): f"{_TRIG_HAND}: fingers in the two large holes must be more than 1.4 in apart",
     ("put on the gasket", "MAL"): (
-        "the fingers always stand along Y, and MAL has no words to turn the hand; but the two large holes of the "
-        "gasket lie along X"
+        "the line through both finger tips is always parallel to Y, and MAL has no words to turn the hand; but the "
+        "two large holes of the gasket lie along X"
     ),
     ("put on the top", "TRIG"): f"{_TRIG_HAND}: the hub of the top is 2.2 in wide",
 }  # fmt: skip
@@ -169,8 +169,9 @@ def _distinct(steps: Iterable[Step]) -> int:
 
 
 def _lines(stage: str, file: str) -> int:
-    """Count the lines of a stage's program. In the arm language, count the lines that the stage executes, and each
-    line of a macro once. In any other language, count the lines that are neither blank nor remarks.
+    """Count the lines of a stage's program. In the arm language, count the lines that the stage executes. A line of a
+    macro counts once, however often the stage calls the macro. In any other language, count the lines that are neither
+    blank nor remarks.
     """
     if file == CAREFUL:
         program, _ = own_program(TASK)

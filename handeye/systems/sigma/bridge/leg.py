@@ -4,8 +4,8 @@ no bus.
 The corner X1 = 0, Y1 = 0 of the board is at x = 350 and y = 800 mm on the table, and Z1 = 0 is 240 mm above the table.
 The hand points straight down, with its fingers along Y. When a leg begins, the hand is brought straight to the nearest
 place of the board, and the axes count from their origins. If the program uses the variables NAMEX, NAMEY and NAMEZ,
-they have the coordinates (mm) of the place that the record calls NAME. Likewise, NAMEH has the height that the record
-calls NAME, as a coordinate of Z1. A leg hands over the variables NAMEX, NAMEY and NAMEZ that it sets.
+they have the coordinates (mm) of the place NAME in the record of the relay. Likewise, NAMEH has the height NAME in
+this record, as a coordinate of Z1. A leg hands over the variables NAMEX, NAMEY and NAMEZ that it sets.
 """
 
 from collections.abc import Mapping, Sequence

@@ -1,12 +1,12 @@
-"""Translates a MAL program of a single task into the program that the planner plans. Every line that cannot become a
+"""Translates a MAL program of a single task into a program for the planner. Every line that cannot become a
 motion is refused.
 
 The axes of one arm become table axes: another arm replaces the arm of SUPERSIGMA, and the board of SUPERSIGMA lies on
 the table of this other arm. A MOVE of one axis becomes a straight motion, and so does a MOVE with LINE. Any other MOVE
 of several axes becomes a motion whose path is free. A LIMIT becomes a guard of the motions of its axis. A test of
 FORCE right after a motion becomes a guard of this motion: the motion stops at this force, and the program no longer
-tests the force afterwards. Without a LIMIT there is no guard, because an arm that is not balanced feels several
-newtons even in free motion.
+tests the force afterwards. A motion with neither a LIMIT nor a test of FORCE has no guard, because an arm that is not
+balanced feels several newtons even in free motion.
 """
 
 from collections.abc import Iterator, Sequence

@@ -232,7 +232,7 @@ def _unit(drawn: Diagram) -> tuple[str, int]:
 
 
 def _ticks(drawn: Diagram, most: int) -> list[int]:
-    """Return round times (ps) for the ticks of the time axis."""
+    """Return the times (ps) of the ticks on the time axis. The times are multiples of a round number."""
     span = (drawn.end - drawn.begin) // PS
     step = next(
         (digit * 10**power for power in range(12) for digit in (1, 2, 5) if digit * 10**power * most >= span),

@@ -1,4 +1,4 @@
-"""Counts how often commands are misread, depending on the clock errors of the receivers."""
+"""Counts how often receivers misread commands, for different clock errors of the receivers."""
 
 from typing import Final
 
@@ -27,11 +27,11 @@ class Rate(Record, frozen=True, kw_only=True):
 
 
 def error_rate(clock: float, commands: int, seed: int = 0, timing: Timing | None = None) -> Rate:
-    """Send random commands to receivers that become free at random times. The clock errors are at most the
-    fraction `clock`.
+    """Send random commands to receivers that become free at random times. Each receiver's clock runs fast or slow by a
+    random fraction, at most `clock`.
 
-    A receiver becomes free at a random time: either during the command, or earlier by at most the duration of a
-    command.
+    A receiver becomes free at a random time, either while the command is sent or before. The earliest time is one
+    command's duration before the command begins.
     """
     timing = timing or Timing()
     wires = Wires(_ANOTHER, timing, ())

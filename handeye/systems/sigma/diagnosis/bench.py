@@ -129,7 +129,7 @@ class Machine(IdealMachine):
             self._swing(number, jump * math.sqrt(_WRIST * _HAND_KG) * memory.sense)
 
     def _ended(self, number: int, motor: Motor, train: Any, began: int, pulses: int, sense: int) -> None:
-        """Handle the end of a pulse train: subtract the steps that the rotor has lost."""
+        """Handle the end of a pulse train: subtract the lost steps from the position of the motor."""
         del self._trains[number]
         made, most, every = abs(motor.memory.pulses - pulses), self._most.pop(number), self._every(number)
         lost = made // every if every else 0
@@ -247,8 +247,9 @@ class Bench:
         self._switch_on()
 
     def press(self, arm: int, component: str, newtons: float) -> None:
-        """Press on a hand with a known force (N) along a component of its wrist. A force of 0 releases the
-        hand."""
+        """Press on a hand with a known force (N) in the direction of one of the force components that its wrist
+        measures. A force of 0 releases the hand.
+        """
         self.machine.loads[NUMBERS[f"FORCE{arm}"], COMPONENTS.index(component)] = newtons
 
     def pull(self, axis: str, newtons: float) -> None:

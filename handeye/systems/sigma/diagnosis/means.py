@@ -115,7 +115,9 @@ def _answer_time(bus: MicrobusPort, number: int) -> float | None:
 
 @dataclass(frozen=True, slots=True)
 class Strobe:
-    """How often a microcomputer that became free in the middle of a command took a command that was never sent."""
+    """The result of a test in which a microcomputer becomes free in the middle of a command. `misread` counts the
+    tries in which the microcomputer took a command that was never sent.
+    """
 
     tries: int
     misread: int

@@ -139,8 +139,9 @@ def _microcomputer(number: int, heard: Mapping[int, _Heard], scanning: Container
 
     def takes(stranger: int, other: int) -> bool:
         """Return True if the microcomputer `stranger`, which is silent at its own number, answers to the number of the
-        microcomputer `other`. There are two signs of this. Usually, both microcomputers become busy together. If
-        `stranger` is always busy, like the microcomputer of a wrist, `stranger` disturbs the answers of `other`.
+        microcomputer `other`. The usual sign is that both microcomputers become busy together. The microcomputer of a
+        wrist is always busy. If `stranger` is such a microcomputer, the sign is that `stranger` disturbs the answers
+        of `other`.
         """
         theirs = heard[other]
         seen = not theirs.right if stranger in scanning else stranger in theirs.busy

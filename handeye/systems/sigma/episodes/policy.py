@@ -43,8 +43,9 @@ class ProgramPolicy(Policy):
 
 
 class _SeenBus(MicrobusPort):
-    """The bus as an episode offers it. The bus collects the commands for one step of the episode, and makes them one
-    action."""
+    """A microbus that leads to an episode. The bus collects the commands for one step of the episode, and combines
+    them into one action.
+    """
 
     def __init__(self, episode: Episode) -> None:
         self._episode = episode
@@ -140,7 +141,7 @@ class _SeenBus(MicrobusPort):
         return Status.BUSY if status is Status.BUSY else Status.FREE
 
     def _answer(self, question: Command, count: int) -> None:
-        """Answer a question from the last observation. If commands were collected, execute them before the answer."""
+        """Take the answer to a question from the last observation. If commands were collected, execute them first."""
         if self._sent:
             self.step()
         self._aborts.pop(question.number, None)

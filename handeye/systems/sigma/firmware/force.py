@@ -1,5 +1,5 @@
 """Firmware of a wrist, which scans the three components of force. While a component exceeds its threshold, the
-firmware keeps on the signal line to the motor microcomputer of this axis.
+signal line from the wrist to the motor microcomputer of this axis is active.
 """
 
 from collections.abc import Sequence
@@ -56,8 +56,8 @@ class Force(Device):
 
     @property
     def pins(self) -> tuple[bool, ...]:
-        """For each component, True if its motor is interrupted. The interruption begins when the force exceeds the
-        threshold, and ends when the force is well below the threshold.
+        """For each component of force, True if the sensor interrupts the motor of the component's axis. The
+        interruption begins when the force exceeds the threshold, and ends when the force is well below the threshold.
         """
         memory = self.memory
         each = zip(memory.readings, memory.thresholds, memory.over, strict=True)

@@ -1,10 +1,10 @@
 """Simulates the two gantries, which are connected to the pins of the microcomputers: rotors that magnetic fields pull
 along, wrists that bend, switches, light beams and hands.
 
-The fields of all motors are computed in advance from the pulse trains of their firmware, as tables with one row
-per millisecond. The physics follows these tables. In each millisecond, one matrix product and one comparison
-show whether a force on a wrist has crossed its threshold, a switch has changed, or a rotor has slipped. Only
-then is other code executed.
+The fields of all motors are computed in advance from the pulse trains of their firmware, as tables with one row per
+millisecond. The physics follows these tables. In each millisecond, one matrix product and one comparison show whether
+a force on a wrist has crossed its threshold, a switch has changed, or a rotor has slipped. Other code runs only in a
+millisecond with such an event.
 """
 
 import math
@@ -121,7 +121,7 @@ class Gantries(Plant[GantryMemory]):
         """Switch the gantries on.
 
         Args:
-            compensated: correct the readings of the wrists by the accelerometers, so that the force that
+            compensated: use the accelerometers to correct the readings of the wrists, so that the force that
                 accelerates a hand is not counted.
         """
         self.bench, self.rig, self._n = Bench(spec.compile()), rig, len(rig.axes)

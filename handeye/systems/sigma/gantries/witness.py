@@ -29,8 +29,8 @@ H = TypeVar("H", bound=Heard)
 
 
 def touch_of_arms(gantries: Gantries) -> Callable[[], bool]:
-    """Return a function that returns True while arms touch each other. A piece in a hand counts as a part of the
-    board.
+    """Return a function that returns True while arms touch each other. A piece in a hand is no part of the arm, so the
+    function ignores contacts with the piece.
     """
     model, data = gantries.bench.model, gantries.bench.data
     roots = {model.body(f"carriage_X{arm}").id: 1 << arm for arm in gantries.rig.arms}

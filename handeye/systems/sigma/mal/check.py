@@ -174,8 +174,8 @@ class _Check:
             yield from self._variables()
 
     def _near(self, name: str, known: Collection[str]) -> SimilarName | KnownNames | None:
-        """Return names that may be intended. Returns None after `LIMIT` calls, because no more than `LIMIT` mistakes
-        are shown.
+        """Return names that the programmer may have meant. Returns None after `LIMIT` calls, because no more than
+        `LIMIT` mistakes are shown.
         """
         self._told += 1
         return alternatives(name, known) if self._told <= LIMIT else None

@@ -228,7 +228,7 @@ class _Compiler:
         self._jumps.append((self._emit(op, operand), int(statement.target.text)))
 
     def _patch(self, address: int) -> None:
-        """Set the target of a jump within a line to the present address."""
+        """Let a jump within a line lead to the present address."""
         self._code[address] = self._code[address]._replace(target=len(self._code))
 
     def _statement(self, statement: Statement) -> None:

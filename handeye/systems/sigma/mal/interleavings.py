@@ -370,7 +370,9 @@ def interleavings(program: MalProgram, most: int = MOST_STATES) -> Interleavings
 
 
 def schedule_lines(schedule: Sequence[Act]) -> list[str]:
-    """Return a schedule as lines of text: the tasks that continue, each with the lines that it executes."""
+    """Return a schedule as text. Each row names the task that continues, and the program lines that this task
+    executes.
+    """
     rows: list[tuple[str, list[str]]] = []
     for act in schedule:
         text = "arrives" if act.line is None else f"{act.line} goes on" if act.goes_on else str(act.line)

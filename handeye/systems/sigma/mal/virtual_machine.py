@@ -38,7 +38,9 @@ NEAR_MM: Final = 500.0  # X1 + X2 from which on an arm may have hit the other ar
 
 
 class VirtualMachine:
-    """Executes a compiled program. `tell` is called with each event; `poll` is called before time passes."""
+    """Executes a compiled program. `tell` is called with each event; `poll` is called before each advance of the
+    clock.
+    """
 
     def __init__(
         self,
@@ -310,7 +312,8 @@ class VirtualMachine:
             self._after_abort(axis, owner, f"ABORT {axis} {cause} {at:.2f}")
 
     def _doubt(self, name: str) -> None:
-        """Query the greatest forces on both wrists, because a standing motor does not report that it was hit.
+        """Ask both wrists for the greatest forces that they have felt: a motor that is at rest does not report that
+        its axis was hit.
 
         If an arm was hit above its wrist, that wrist feels nothing. Therefore, while the arms are near each other, a
         great force on one wrist makes the count of the same axis of the other arm doubtful, too.

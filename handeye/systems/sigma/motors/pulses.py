@@ -116,8 +116,8 @@ def profile(steps: int, curve: Curve, limit: float = 0.0) -> Train:
 
 
 def constant(steps: int, speed: float, curve: Curve, limit: float = 0.0, *, ramped: bool = True) -> Train:
-    """Return the pulse train of a move at constant speed (steps/s). Above the start/stop speed, the move begins
-    and ends with ramps, unless `ramped` is False.
+    """Return the pulse train of a move at constant speed (steps/s). If this speed is above the start/stop speed, the
+    move begins and ends with a ramp, unless `ramped` is False.
     """
     speed = min(speed, float(limit)) if limit else speed
     start = min(curve.start, speed) if ramped else speed

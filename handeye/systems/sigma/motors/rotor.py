@@ -205,8 +205,9 @@ def _catches(drive: Drive, field: float, speed: float) -> bool:
 
 
 def _holds(drive: Drive, between: float, pull: float) -> bool:
-    """Return True if a pole can absorb a difference of speed (steps/s). A load reduces the energy that the pole
-    can absorb."""
+    """Return True if a pole holds the rotor although the speeds of field and rotor differ by `between` (steps/s). A
+    load reduces the energy that the pole can absorb.
+    """
     lag = lag_for(drive.load, pull) * _FULL
     depth = pull * (math.cos(lag) - math.cos(math.pi - lag)) - drive.load * (math.pi - 2 * lag)
     return drive.load < pull and drive.mass * (between * STEP) ** 2 / 2 <= depth * STEP / _FULL

@@ -14,7 +14,9 @@ _TOLD: Final = re.compile(r"PINS\s+(\d{1,9})\s+SCREWS\s+(\d{1,9})\b")
 
 
 class WatchedPump(Heard, frozen=True, kw_only=True):
-    """The parts at their initial places, the lines that the program has printed, and how long the arms touched."""
+    """The parts at their initial places, the lines that the program has printed, and how long the two arms touched
+    each other.
+    """
 
     pump: Pump
     touched_ms: int = 0

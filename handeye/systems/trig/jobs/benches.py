@@ -148,7 +148,9 @@ class TaughtJob(ABC):
         """The goals of the blocks (mm), in the order in which the arm picks the blocks up."""
 
     def remembered(self) -> "Findings":
-        """Return the findings on the program after its reversal. By default, there are no findings."""
+        """Return the findings on the program after the arm has undone the program's work. By default, there are no
+        findings.
+        """
         return {}
 
 

@@ -147,7 +147,9 @@ class BlocksWorld:
 
     @property
     def bending(self) -> Callable[[Array], Array]:
-        """The errors of the six potentiometers (m or rad), as a function of their readings."""
+        """A function that takes the readings of the six potentiometers (m or rad) and returns the errors of these
+        readings.
+        """
         if self.spec is None:
             return np.zeros_like
         sigmas = [*3 * (SLIDES,), *3 * (TURNS,)]

@@ -115,8 +115,8 @@ class Graph:
         return found
 
     def step_at(self, id: int) -> int:
-        """Return this node or, if it is a bloop, the first node below it that is not a bloop. NONE if there is no
-        such node.
+        """Return this node or, if it is a bloop, the first node below it that is not a bloop. Returns NONE if there is
+        no such node.
         """
         while id != NONE and self[id].type == "bloop":
             id = self[id].sons[0]
@@ -166,7 +166,7 @@ class Graph:
 
     def insert(self, after: int, branch: int, node: Node) -> None:
         """Insert a node on a branch of another node. The present son on this branch becomes the son of the new node.
-        If the new node is guarded, this son is on its normal branch.
+        If the new node is guarded, the son is placed on the normal branch of the new node.
         """
         self.nodes[node.id] = node
         son = self[after].sons[branch]

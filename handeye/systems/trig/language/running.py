@@ -48,7 +48,7 @@ def undo_last(program: TrigProgram, arm: TrigArm, halted: Halted) -> Stop | None
 
 
 def _way_back(program: TrigProgram, done: RecordedStep, arm: TrigArm, halted: Halted) -> Stop | None:
-    """Return to the start of a move. If the arm took up an object at this start, set the object down again."""
+    """Move the arm back to the start of a move. If the arm took up an object there, set the object down again."""
     if _took_up(program) and at_least(arm.gap, least_gap(0.0)):
         return arm.set_down(done.place, halted, done.met)
     return arm.back(done.place, halted, done.met)

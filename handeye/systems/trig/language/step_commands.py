@@ -207,7 +207,7 @@ def delete_all(session: Session, given: Arguments) -> None:
 
 
 def unlink(session: Session, given: Arguments) -> None:
-    """DLINK: remove the edge from the active step to a step that has other fathers as well."""
+    """DLINK: remove the edge from the active step to one of its sons. This son must also have another father."""
     program, target = session.program, session.step(given.step or "")
     node, graph = active_step(session), program.graph
     entry = graph.entry(target.id)

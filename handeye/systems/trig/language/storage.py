@@ -157,7 +157,7 @@ def write_program(path: Path, program: TrigProgram) -> None:
 
 
 def read_program(path: Path) -> TrigProgram:
-    """Read a TRIG program, with its positions as they were defined. Raises BadFile if the file is not valid."""
+    """Read a TRIG program. Raises BadFile if the file is not valid."""
     return decoded(read_whole(path, LARGEST), str(path))
 
 

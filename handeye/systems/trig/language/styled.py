@@ -7,8 +7,8 @@ from typing import Final
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Symbols:
-    """Drawing characters. `corner` leads a line from the left downwards. `turn` leads a line from above to the right.
-    At `tee`, a second line branches off downwards.
+    """Drawing characters. At `corner`, a line that comes from the left turns downwards. At `turn`, a line that comes
+    from above turns to the right. At `tee`, a second line branches off downwards.
     """
 
     cursor: str

@@ -1,2 +1,3 @@
-"""TRIG programs as runs: a program is taught in the world of the run, executed step by step, and reversed by
-the arm."""
+"""TRIG programs as runs: a program is taught in the world of the run and executed step by step. Then the arm executes
+the program backwards, which undoes its work.
+"""

@@ -78,8 +78,8 @@ def carry_out(
     go: Callable[[int | None], Pause] | None = None,
     tell: Callable[[str], None] = lambda _: None,
 ) -> Pause:
-    """Execute a job from its present state to the end of its program, or for N steps, where N is `after`. Then reverse
-    the job, if it can be reversed.
+    """Execute a job from its present state to the end of its program. If `after` is given, execute only this number of
+    steps. Then reverse the job, if it can be reversed.
 
     `go` executes a number of steps, or all steps if the number is None. The default `go` works without an operator.
     `tell` is called twice: with a sentence on how the program ended, and with a sentence on how the reversal ended.
@@ -110,8 +110,8 @@ def _turns(runner: Runner, pause: Pause, after: int | None) -> bool:
 
 
 def ends_job(runner: Runner, result: Result) -> bool:
-    """Return True if a run is a job that has ended and, if its program was completed, has been judged. Return False if
-    the run was reversed because a user ordered the reversal.
+    """Return True if a run is a job that has ended. If the program of the job was completed, the referee must also
+    have judged the job. Return False if the run was reversed because a user ordered the reversal.
     """
     system = runner.system
     if not isinstance(system, RunningJob) or result.paused or (runner.undone and system.state.turn is None):

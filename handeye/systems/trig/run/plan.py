@@ -94,7 +94,7 @@ def imagined(plan: TaughtPlan) -> TrigProgram:
 
 
 def typed(text: str, name: str) -> TrigProgram:
-    """Return the program that results if a script is taught to an imaginary arm. The steps are the same in every
+    """Return the program that a script teaches on an imaginary arm. The steps of the program are the same in every
     world, but the places are not. Raises LineRefused if a line of the script cannot be executed.
     """
     session, asked = new_session("none"), 0

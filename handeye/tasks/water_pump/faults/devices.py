@@ -87,7 +87,9 @@ def device_faults() -> tuple[DeviceFault, ...]:
 
 
 def defects(faults: Sequence[Fault]) -> tuple[Defect, ...]:
-    """Return the defects of the cell's signal lines for the given faults. Only faults of devices have defects."""
+    """Return the defects that the given faults make in the cell's signal lines. Only a fault of a device makes such a
+    defect.
+    """
     return tuple(
         Defect(line=line, effect=effect(fault.value or 0.0), stage=fault.stage)
         for fault, lines in broken(device_faults(), faults)

@@ -148,8 +148,9 @@ def thick_point(screw: str, spec: mujoco.MjSpec, more: float) -> None:
 
 
 def block(hole: int, plug_name: str, spec: mujoco.MjSpec, depth: float) -> None:
-    """Fill the bottom of a hole with metal up to a depth (m) below its mouth, so that no screw in its thread
-    can go deeper."""
+    """Fill the bottom of a hole with metal up to a depth (m) below the mouth of the hole. A screw in this hole can
+    then go no deeper than that.
+    """
     x, y, mouth = spec.site(f"base_hole{hole}").pos
     floor = base_top() - dimensions()("base.screw_holes.depth")
     plug = spec.body("base").add_geom(

@@ -1,7 +1,7 @@
-"""Defines which calls to the operator name a fault correctly, and the expectations that several faults share.
+"""Defines when a call to the operator names a fault correctly. Also defines the expectations that several faults share.
 
-The expected detection of a fault is part of its declaration. A correct call names the faulty part or sense, so
-that a person knows where to look. If the arm cannot distinguish several causes, the call names all of them: a
+The expected detection of a fault is part of its declaration. A correct call names the faulty part or sense, so that a
+person knows where to look. If the arm cannot distinguish several causes, the call names all of them. For example, a
 screw that stops high may be cross-threaded, or its hole may be blocked.
 """
 
@@ -179,8 +179,8 @@ def screw_of(hole: int) -> int:
 
 
 def if_used(number: int, expected: ExpectedDetection) -> ExpectedDetection:
-    """Return `expected` if the program uses the screw or hole with this number. A pump with seven screws has a seventh
-    hole, and the program uses neither this screw nor this hole. For number 7, no expectation is therefore stated: only
-    the referee can notice a fault of this screw or hole.
+    """Return `expected` if the program uses the screw or hole with this number. A pump may have a seventh screw and a
+    seventh hole, but the program uses neither of these two. For number 7, no expectation is therefore stated: only the
+    referee can notice a fault of this screw or hole.
     """
     return expected if number <= len(SCREWED) else UNKNOWN

@@ -339,7 +339,7 @@ class PumpClaims:
         return Claim(says="the fingers open after their last grip", phases=(opened,), at_first=True)
 
     def gentle(self) -> Claim:
-        """Return the claim that no screw was driven with a torque stop above the torque of the clutch."""
+        """Return the claim that no torque stop for driving a screw is set above the torque of the clutch."""
         strong = Contacted(of=Contact(where=self.places.pump, torque=Limits(TORQUE.high, math.inf)))
         return Claim(
             says="no screw is driven with a torque stop above 45.5 oz-in",

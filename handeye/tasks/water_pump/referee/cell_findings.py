@@ -1,5 +1,5 @@
-"""Findings on the cell around a pump, whether assembled or taken apart: every object is at rest, and every part
-is present once and unaltered.
+"""Findings on the cell around a pump. The pump may be assembled or taken apart. Every object must be at rest, and
+every part must be present once and unaltered.
 """
 
 import copy

@@ -16,7 +16,7 @@ _ROUNDING: Final = 1e-9  # m and m/s; rounding errors of a servo at its goal
 
 
 def commanded(truth: Truth) -> list[str]:
-    """Return the devices that still carry out a command: arm, hand or screwdriver."""
+    """Return the names of the devices that are still moving or pushing on a command: arm, hand or screwdriver."""
     driven = {"arm": _arm_driven, "hand": _hand_driven, "screwdriver": _driver_driven}
     return [name for name, left in driven.items() if left(truth)]
 

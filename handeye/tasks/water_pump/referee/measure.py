@@ -80,8 +80,8 @@ def corner_height(measured: SettledState, layer: str, holes: int) -> float:
 
 
 def pins_away(measured: SettledState) -> float:
-    """Return the greatest distance of the middle of a pin's shoulder from the mouth of its hole in the base (m). Any
-    pin may stand in any of the holes for pins, but no two pins in the same hole.
+    """Return the greatest distance of the middle of a pin's shoulder from the mouth of its hole in the base (m). A pin
+    may stand in any of the holes for pins, but each hole takes only one pin.
     """
     mouths = [
         measured.data.site(f"base_hole{int(hole)}").xpos
@@ -170,7 +170,7 @@ def rotor_lean(measured: SettledState) -> float:
 
 
 def rotor_torque(measured: SettledState) -> float:
-    """Return the greatest torque needed to turn the rotor all the way round in both directions (N m).
+    """Turn the rotor all the way round in both directions, and return the greatest torque on the way (N m).
 
     The result is infinite if the greatest permitted torque does not turn the rotor all the way. The torque is
     measured on a copy of the cell in which everything but the rotor is fixed, and in which any obstacle stops

@@ -25,7 +25,7 @@ _METAL: Final = (
 
 
 def specification(world: PumpWorld) -> mujoco.MjSpec:
-    """Return the scene before compilation, so that shapes can be added or the scene saved.
+    """Return the scene before compilation. The caller can then add shapes to the scene, or save it.
 
     The bodies of the scene are `base` (which contains `carrier0`, `carrier1` and so on), `gasket`, `top` (which
     contains `rotor`), `pin0`, `pin1`, `screw0`, `screw1` and so on, `driver` (which contains `bit`), the fixtures, and

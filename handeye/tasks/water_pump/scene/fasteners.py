@@ -50,8 +50,8 @@ def _add_pin(shaper: Shaper, body: mujoco.MjsBody) -> None:
 
 
 def add_screws(shaper: Shaper, world: PumpWorld) -> None:
-    """Add the dispenser, and a loose screw that hangs by its head in each of its holes. The origin of a screw
-    is at its point.
+    """Add the dispenser and the loose screws: one screw hangs by its head in each hole of the dispenser. The origin of
+    a screw is at its tip.
     """
     d = dimensions()
     height, length, (x, y) = d("dispenser.height"), d("screw.length"), d.all("dispenser.place")

@@ -56,7 +56,7 @@ def _add_table(shaper: Shaper, world: PumpWorld) -> None:
 
 
 def _add_belt(shaper: Shaper, world: PumpWorld) -> None:
-    """Add the belt with its end rollers, between side rails that stay below its surface."""
+    """Add the belt with its end rollers and its two side rails. The rails stay below the surface of the belt."""
     d = dimensions()
     body, depth = shaper.spec.worldbody, d.all("table.size")[1]
     (x0, x1), top = d.all("belt.x"), d("belt.height")

@@ -99,8 +99,8 @@ def put_base(still: StillPump, place: Place, *, pins: bool) -> None:
 
 
 def look(camera: TvCamera, known: CameraModel, lens: float, point: tuple[float, float, float]) -> View:
-    """Select the lens, aim the camera, and focus the lens, as the executor does. Returns the view as the program
-    believes it to be.
+    """Select the lens, aim the camera, and focus the lens, as the executor does. Returns the view that the program
+    computes from its camera model and the potentiometers.
     """
     camera.lens(lens)
     camera.aim(*known.aim(point, lens))
@@ -156,8 +156,8 @@ def by_lamp(still: StillPump, renderer: str) -> Calibration:
     """Calibrate as in a run: the arm measures the errors of its joints, and then carries its lamp through the
     camera's view.
 
-    Afterwards, the camera of the still cell has the lens, aim and noise generator that the calibration left.
-    Raises CalibrationFailed if the lamp was seen too few times.
+    Afterwards, the camera of the still cell has the same lens, aim and state of the noise generator as the camera at
+    the end of the calibration. Raises CalibrationFailed if the lamp was seen too few times.
     """
     cell = build_cell(still.world, camera=renderer)
     drive = DriveState.holding(cell.devices.sense(), STANFORD)

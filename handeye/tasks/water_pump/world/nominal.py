@@ -29,8 +29,8 @@ _TRIANGLE: Final = (0, 2, 4)  # three of the places in a grid of two rows of thr
 def _looks(
     chosen: tuple[int, ...], lens: float, x: float, y: float, dx: float, dy: float, heights: tuple[float, ...]
 ) -> Iterator[CalibrationLook]:
-    """Yield views of places on a grid about (x, y). In each view, the arm shows the lamp at places on the left and
-    right, high and low. All lengths are in inches.
+    """Yield one view for each chosen place on a grid centred at (x, y). In each view, the arm shows the lamp at two
+    places: one on the left and one on the right, at different heights. All lengths are in inches.
 
     The camera is aimed again for each view, because each reading of its pan and tilt has a different error. Two lamp
     places in one view determine the roll of the camera. The lamp is shown at different heights, because views of a

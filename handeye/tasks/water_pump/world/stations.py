@@ -1,7 +1,7 @@
 """Stations of the pump's table: fixtures in which parts and tools wait, or against which they are pushed.
 
-A station made of boxes needs only one entry `[stations.NAME]` in `scenes/water_pump/dimensions.toml`. The scene
-then shows the station, each world displaces the station by an error, and the planner keeps every motion clear of
+A station made of boxes needs only one entry `[stations.NAME]` in `scenes/water_pump/dimensions.toml`. The scene then
+shows the station. In each world, the station has a different position error. The planner keeps every motion clear of
 the station.
 """
 
