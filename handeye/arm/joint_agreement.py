@@ -173,8 +173,8 @@ class JointAgreement:
     def begin_anew(self, q: Array, qd: Array) -> None:
         """Start the comparison again from these readings. The servo does this while a running tool shakes the arm.
 
-        A tool may shake the arm with the period of the servo. Tachometers that are read once per period then show a
-        steady rate although the joint does not move on average.
+        A tool may shake the arm exactly once in each servo period. Tachometers that are read once per period then show
+        a steady rate although the joint does not move on average.
         """
         self.start, self.rate, self._pairs = q, qd, []
 

@@ -32,9 +32,9 @@ class MovedFrames:
 
         Each pose is compared with the last pose that was written. Which pose was written last depends on earlier
         comparisons. Therefore the comparisons are made in rounds. The first round assumes that nothing was written.
-        Each further round assumes that exactly the rows chosen by the previous round were written. The rounds end
-        when nothing changes. Each round settles at least one of the `m` times. Frames that rest, or that move all the
-        time, need at most three rounds.
+        Each further round assumes that exactly the rows chosen by the previous round were written. The last round is
+        the one that chooses the same rows as the round before it. Each round settles at least one of the `m` times.
+        Frames that rest, or that move all the time, need at most three rounds.
         """
         poses[~there, 2] = 2 * PUT_AWAY
         rows = np.concatenate([self.written[None], poses])

@@ -234,8 +234,9 @@ def _centre(
 ) -> tuple[float, float] | None:
     """Find the centre (x and y, in metres) of the hole that is expected at `place` (in metres, shape (3,)).
 
-    The characteriser finds the hole, as it does when the base is located, and a circle is fitted around the result. If
-    an aligning pin blocks one of the characteriser's four beams, the circle is fitted around the expected place.
+    As in the location of the base, the characteriser finds the hole. Then a circle is fitted to the border that is
+    seen around the hole's centre. If an aligning pin blocks one of the characteriser's four beams, the expected place
+    replaces this centre.
     """
     seed, reach = _seen(view, place, hole)
     blob = characterise(scan, seed, step, reach, wide=True, beyond=beyond)
