@@ -289,8 +289,8 @@ class Runner:
         return self.system.finish() and self.trouble is None
 
     def repeat(self, events: Sequence[AnyEvent]) -> None:
-        """Continue until the run has as many events as the list `events`, and repeat the operator's actions in that
-        list.
+        """Continue until the run has `len(events)` events. On the way, repeat the operator's actions that `events`
+        contains.
         """
         while len(self.events) < len(events):
             then = events[len(self.events)]

@@ -32,7 +32,9 @@ class ArmWorld:
 
 
 def arm_values(world: World, rubbing: Sequence[str]) -> dict[str, Any]:
-    """Return the values of an `ArmWorld`'s fields. `rubbing` names the kinds of shapes whose friction varies."""
+    """Return a dictionary from the names of an `ArmWorld`'s fields to their values in a world. `rubbing` names the
+    kinds of shapes whose friction varies.
+    """
     return {
         "drawn": world,
         "arm": _arm(world),

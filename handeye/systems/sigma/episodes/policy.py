@@ -156,5 +156,5 @@ class _SeenBus(MicrobusPort):
                 raise NoAnswer(question.number, 0, count)
 
     def _reading(self, name: str, number: int) -> int:
-        """Return a count that an axis has answered (steps)."""
+        """Return the position (steps) that axis `number` has reported in the field `name` of the observation."""
         return round(float(self._episode.observation[name][_ORDER.index(number)]) / STEP_MM)

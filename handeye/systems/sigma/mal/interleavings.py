@@ -172,8 +172,8 @@ class _Search:
         )
 
     def _expanded(self, key: bytes, state: _State) -> list[tuple[Act, _State]]:
-        """Return the states that follow a state. If a statement that concerns no other task leads to a new
-        state, only that state is returned.
+        """Return the states that follow a state. A statement may concern only its own task. If such a statement leads
+        to a new state, only this new state is returned.
         """
         if state.memory.fault is not None:
             return []
