@@ -126,7 +126,7 @@ class _Expansion:
         self.place(macro.body, _Frame(call, inside, given, statement))
 
     def given(self, statement: Statement, macro: Macro, frame: _Frame) -> dict[str, Argument] | None:
-        """Return the operands of a call by parameter, or None if the operands are wrong."""
+        """Map the parameters of a macro to the operands of a call. Returns None if the operands are wrong."""
         if not macro.parameters and not statement.open:
             return {}
         names = [parameter.text for parameter in macro.parameters]

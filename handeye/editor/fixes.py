@@ -1,5 +1,5 @@
-"""Finds fixes for diagnostics. A diagnostic with `meant` contains its fix as data. For all other diagnostics, a table
-gives the fixes for each code.
+"""Finds fixes for diagnostics. The field `meant` of a diagnostic may give replacements for a name. A table gives
+further fixes for each code.
 """
 
 from collections.abc import Callable, Iterator

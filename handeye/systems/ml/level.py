@@ -187,6 +187,6 @@ class Level(ABC):
 
     @abstractmethod
     def digital_out(self, word: int, value: int, mask: int) -> None:
-        """In a digital output word, replace each bit for which `mask` has a 1 by the same bit of `value`. Raises
+        """Copy to a digital output word those bits of `value` for which the bit in `mask` is 1. Raises
         MlError: M11 if there is no such word, and M15 while the pump is on.
         """
