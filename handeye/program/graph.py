@@ -72,9 +72,8 @@ class Graph:
         return reachable([before for number in numbers for before in self.back[number]], self.back)
 
     def last(self, number: int, *kinds: type[Operation]) -> list[int]:
-        """Return the reachable steps of these kinds that can come before a given step with no other step of these
-        kinds in between. The list is empty if a path to the given step has no such step, or if the search takes too
-        long.
+        """Return the steps of the given kinds that can be the last of these kinds before step `number`. Only reachable
+        steps count. The list is empty if a path to the given step has no such step, or if the search takes too long.
         """
         found: list[int] = []
         seen: set[int] = set()

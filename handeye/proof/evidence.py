@@ -166,8 +166,8 @@ class Contact(Record, frozen=True, kw_only=True):
 
 
 class HeightWithin(Evidence, frozen=True, kw_only=True):
-    """A HEIGHT after a contact. HEIGHT measures from the height of another contact, and its range (m) lies within
-    limits.
+    """A HEIGHT after the contact `of`. It measures from the height of the contact `over`. The range (m) that this
+    HEIGHT allows lies within `limits`.
     """
 
     operations: ClassVar = (Height,)

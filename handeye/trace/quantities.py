@@ -146,7 +146,9 @@ def _event(event: dict[str, Any]) -> dict[str, Any]:
 
 
 def _named(value: Any) -> Any:
-    """Return the components of a position or difference by name. Other values are returned unchanged."""
+    """Return a position or difference as a dictionary from axis names to components. Other values are returned
+    unchanged.
+    """
     if not isinstance(value, list | tuple) or len(value) > len(_AXES):
         return value
     numbers = all(isinstance(each, int | float) for each in value)

@@ -1,5 +1,5 @@
-"""Reads and writes the folder of a batch. The folder contains a head with the settings of the batch, the plan, and
-one line for each finished trial.
+"""Reads and writes the folder of a batch. The folder contains the settings of the batch (the head), the plan, and one
+line for each finished trial.
 """
 
 from collections.abc import Mapping

@@ -162,7 +162,7 @@ def job_script(name: JobName, blocks: int = MOST_BLOCKS) -> str:
 
 
 def open_job(name: JobName, world: "WorldSpec | None", script: str) -> TaughtJob:
-    """Open a job in a world, or without errors if `world` is None. Nothing is taught yet."""
+    """Open a job in a world. If `world` is None, the bench has no errors. Nothing is taught yet."""
     from handeye.systems.trig.jobs.jobs import ArrangeJob, BucketJob, PalletJob
     from handeye.systems.trig.jobs.world import BlocksWorld
 
