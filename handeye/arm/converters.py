@@ -40,8 +40,8 @@ def rate_step(arm: ArmModel) -> Array:
 
 @lru_cache(maxsize=16)
 def torque_step(arm: ArmModel) -> Array:
-    """Return one converter step of each drive, shape (n,), in N m or N. The range of a converter is the range of the
-    drive's torque, in both directions.
+    """Return the step size of each drive's converter, shape (n,), in N m or N. The range of a converter is the range
+    of the drive's torque, in both directions.
     """
     return 2 * constants(arm).effort / 2**TORQUE_BITS
 

@@ -141,7 +141,9 @@ def _channels(trace: Trace, begin: float, end: float) -> Iterator[Panel]:
 
 
 def _marks(trace: Trace, begin: float, end: float) -> Iterator[Mark]:
-    """Yield the events by kind. Events that only the run's system emits are named by their type."""
+    """Yield a mark for each kind of event, with the times of these events. Subclasses of `SystemEvent` are named by
+    their class.
+    """
     own = {type(event).__name__: type(event) for event in trace.events if isinstance(event, SystemEvent)}
     for name, kind in {**_MARKED, **own}.items():
         times = (event.time for event in trace.events if isinstance(event, kind))

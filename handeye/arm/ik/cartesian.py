@@ -47,8 +47,8 @@ def _build(arm: ArmModel) -> _Build:
 
 
 def branches(arm: ArmModel, X_WT: Pose, start: Array | None) -> tuple[Array, NDArray[np.bool_]]:
-    """Return the only branch. The branch exists if the slides alone can bring the hand to the pose, without turning
-    the hand.
+    """Return the joint positions of the only possible branch, and whether this branch exists. It exists if the slides
+    alone can bring the hand to the pose, without turning the hand.
     """
     b, X = _build(arm), np.asarray(X_WT, dtype=np.float64)
     q, off = _nearest_position(arm, b, X, b.held_at if start is None else start[b.held])

@@ -1,5 +1,5 @@
-"""Reasons why an arm cannot reach a pose or make a motion, as facts and as sentences. The facts count joints from 0
-and are in SI units.
+"""Reasons why an arm cannot reach a pose or make a motion, as facts and as sentences. In the facts, joint numbers
+begin at 0, and quantities are in SI units.
 """
 
 from collections.abc import Sequence
