@@ -38,8 +38,9 @@ class NearWorld(Record, frozen=True, kw_only=True):
 
 
 class Push(Record, frozen=True, kw_only=True):
-    """How far one quantity lies, on average, from its middle value in failing worlds, in standard deviations. The sign
-    of a mean deviation shows whether the program fails mostly at greater or at smaller values of this quantity.
+    """The mean deviation of one quantity from its middle value, in standard deviations. The mean is over failing
+    worlds. The sign of a mean deviation shows whether the program fails mostly at greater or at smaller values of this
+    quantity.
     """
 
     quantity: str
@@ -50,7 +51,7 @@ class Push(Record, frozen=True, kw_only=True):
 
 @dataclass(slots=True)
 class _Descent:
-    """The search for the nearest failing world, begun at one failing world."""
+    """A search for the nearest failing world. The search began at the failing world `begun`."""
 
     begun: Failing
     tries: Generator[Array, bool, None]

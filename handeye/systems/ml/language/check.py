@@ -102,8 +102,8 @@ class _Check:
                 yield mistake("limits-empty", told, line.place(1))
 
     def motors(self, line: Line) -> Iterator[Diagnostic]:
-        """Check the motors and the constant goals of a line. A line that may command either arm is a mistake only if it
-        suits neither arm.
+        """Check the motors and the constant goals of a line. If either arm may execute the line, the line has a
+        mistake only if it suits neither arm.
         """
         sides = self._sides.get(line.number or 0) or _ARMS
         mistakes = [list(_motors(line, _ARMS[side])) for side in _ARMS if side in sides]
