@@ -81,8 +81,8 @@ class Carriers:
         return found
 
     def fill(self, hole: int, X_WS: Pose, rate: float) -> None:
-        """Move the carrier of a hole to the pose of a screw. The carrier takes the axis of the screw, and turns at
-        `rate` (rad/s).
+        """Move the carrier of a hole to the pose of a screw. The carrier's axis becomes that of the screw, and the
+        carrier turns at `rate` (rad/s).
         """
         model, data = self._model, self._data
         X_WB = pose(data.xmat[self.base].reshape(3, 3), data.xpos[self.base])

@@ -37,7 +37,7 @@ class Block(NamedTuple):
 
     @property
     def upright(self) -> bool:
-        """True if the block lies on one vertical line."""
+        """True if all points of the block have the same x and the same y."""
         return self.low[:2] == self.high[:2]
 
 

@@ -42,7 +42,7 @@ def _axis(times: NDArray[np.float64], columns: int) -> str:
 
 
 def as_svg(found: AxisStudy) -> str:
-    """Return the speed, the required force and the pull-out force over time as SVG."""
+    """Draw, as SVG, the speed, the required force and the pull-out force over time."""
     times, speeds, forces, pulls = series(found)
     title = f"{found.mass:g} kg, curve {found.curve}, {counted(found.steps, 'step')}: {verdict(found)[-1]}"
     pieces = [element("text", title, x=12, y=22, class_="t")]
