@@ -323,8 +323,8 @@ class Threads(Mechanism[ThreadsState]):
         return next(filter(self._on, near), None)
 
     def _on(self, hole: int) -> bool:
-        """Return True if the bit stands upright on the head of the screw in a hole, over the slot. The bit must be
-        near the hole.
+        """Return True if the bit stands upright over the slot of the screw in a hole, and on the head of this screw.
+        The bit must be near the hole.
         """
         data, head = self._data, self._carriers.head[hole]
         apart = data.geom_xpos[head] - data.geom_xpos[self._bit]

@@ -112,7 +112,7 @@ class Exercise(ABC):
     @property
     @abstractmethod
     def cases(self) -> str:
-        """The cases in which a program is judged, in words."""
+        """A text that describes the cases in which a program is judged."""
 
     @property
     @abstractmethod
