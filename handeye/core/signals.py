@@ -22,7 +22,7 @@ Handler = Callable[[int, FrameType | None], None]
 
 
 class ToldToEnd(KeyboardInterrupt):
-    """Raised by a signal, other than Ctrl-C, that ends the program. At a prompt, Ctrl-C only drops the typed line; the
+    """Raised when a signal other than Ctrl-C ends the program. At a prompt, Ctrl-C only drops the typed line; the
     other signals end the program.
     """
 

@@ -1,7 +1,7 @@
 """Defines the interface of a system that can run a leg of a relay.
 
-A relay is a list of legs; each leg does one stage of a task in the language of one system, on the cell that all legs
-share. The relay (`handeye/systems/relay`) finds the other systems by their entries: `Entry.leg` names a `LegSystem`.
+A relay is a list of legs. Each leg does one stage of a task, in the language of one system. All legs share one cell.
+The relay (`handeye/systems/relay`) finds the other systems by their entries: `Entry.leg` names a `LegSystem`.
 """
 
 from abc import ABC, abstractmethod
