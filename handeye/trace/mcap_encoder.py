@@ -1,4 +1,4 @@
-"""Encodes an MCAP file piece by piece, for a file that is appended to while a run goes on.
+"""Encodes an MCAP file piece by piece, so that a run can append to the file as it goes on.
 
 The bytes are the same as from `mcap.writer.Writer`, but encoding takes a third of the time. Unlike that writer, this
 encoder can also encode a chunk that has not ended.

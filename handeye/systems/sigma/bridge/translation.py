@@ -163,7 +163,9 @@ def _device(statement: Statement) -> str:
 
 
 def _arms(lines: Sequence[Line]) -> Iterator[Diagnostic]:
-    """If the lines use both arms, yield a diagnostic for the first line that uses the second of these arms."""
+    """If the lines use both arms, yield a diagnostic for the first line that uses a different arm from the lines
+    before it.
+    """
     first: tuple[int, Line] | None = None
     for line in lines:
         for arm in sorted(_arms_of(line.statement)):

@@ -80,7 +80,7 @@ class Witness(Mechanism[H], Generic[H]):
 
 
 class HeardTouches(Heard, frozen=True, kw_only=True):
-    """The lines that the program has printed, and how long the arms touched each other."""
+    """The lines that the program has printed, and the time for which the arms touched each other."""
 
     touched_ms: int = 0
 

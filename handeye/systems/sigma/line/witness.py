@@ -12,7 +12,9 @@ _TOLD: Final = re.compile(r"PIECES\s+(\d{1,9})\s+WITHDRAWN\s+(\d{1,9})\b")
 
 
 class WatchedLine(HeardTouches, frozen=True, kw_only=True):
-    """The pieces on the feeder, the lines that the program has printed, and how long arms touched."""
+    """The pieces on the feeder, the lines that the program has printed, and the time for which the arms touched each
+    other.
+    """
 
     pieces: tuple[LinePiece, ...]
 
