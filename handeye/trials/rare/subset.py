@@ -179,8 +179,8 @@ def _level(chains: Sequence[_Chain], told: Level) -> Level:
 
 
 def _threshold(margins: Sequence[float]) -> float:
-    """Return the margin that a tenth of a sorted sample does not exceed. If most of the sample has this same margin,
-    return the next smaller margin.
+    """Return the first decile of a sorted sample of margins. If most of the sample has this same margin, return the
+    next smaller margin.
     """
     found = margins[math.ceil(SHARE * len(margins)) - 1]
     if found > FAILED and sum(margin <= found for margin in margins) > len(margins) / 2:

@@ -27,7 +27,7 @@ class Station(StrEnum):
 
 
 def plain_stations() -> dict[str, tuple[Box, ...]]:
-    """Return the boxes of the stations that consist only of boxes, by name, in the table frame (m). Raises
+    """Map the name of each station that consists only of boxes to these boxes, in the table frame (m). Raises
     InvalidInput if a station's figures do not describe boxes.
     """
     found = {}
