@@ -22,7 +22,7 @@ from handeye.runs.scripts import taught
 
 
 def text_of(workspace: Workspace, uri: str) -> TextDocument:
-    """Return the text of a URI, from the editor or from a file. Raises BadFile if neither the editor nor a file has
+    """Return the document at a URI, from the editor or from a file. Raises BadFile if neither the editor nor a file has
     the text.
     """
     if uri not in workspace.text_documents:

@@ -105,7 +105,7 @@ class HandPlaces:
         return found
 
     def after(self, node: int, outcome: int | None, situations: Situations) -> Situations:
-        """Return the situations after a node, for one outcome of its action."""
+        """Return the situations after a node, for one outcome of the node's action."""
         number = self.graph.nodes[node][0]
         operation = self.program.steps[number].operation
         if isinstance(operation, Undo):
