@@ -154,7 +154,7 @@ class Carriers:
 
 
 def _helix(model: mujoco.MjModel, slide: int, turn: int) -> int:
-    """Return the number of the equality constraint that couples a slide to a turn by the pitch."""
+    """Return the number of the equality constraint that couples the slide to the turn of the same screw thread."""
     for e in np.flatnonzero(model.eq_type == mujoco.mjtEq.mjEQ_JOINT):
         if (model.eq_obj1id[e], model.eq_obj2id[e]) == (slide, turn):
             return int(e)

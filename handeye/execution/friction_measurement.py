@@ -127,8 +127,8 @@ def _check_rubbing(arm: ArmModel, coulomb: Array) -> None:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _PassTorques:
-    """The torques of a pass that the arm model does not explain, separated into friction and weight, each of shape
-    (n,).
+    """The part of the torques of a pass that the arm model does not explain. This part is separated into friction and
+    weight, each of shape (n,).
     """
 
     rubbing: Array  # opposing the motion

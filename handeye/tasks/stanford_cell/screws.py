@@ -89,7 +89,9 @@ _COLOURS: Final = {
 
 
 def add_styles(spec: mujoco.MjSpec) -> None:
-    """Add the colours, and the default classes of shapes. The classes differ in what their shapes touch."""
+    """Add the colours, and the default classes of shapes. The class of a shape determines which other shapes it can
+    touch.
+    """
     for name, (contype, conaffinity) in _STYLES.items():
         style = spec.find_default(name) or spec.add_default(name, spec.default)
         geom = style.geom

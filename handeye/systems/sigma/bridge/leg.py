@@ -78,7 +78,9 @@ class LegArm(BorrowedArm):
         self._slow, self.felt, self.most, self._zero = set(), np.zeros(3), 0.0, 0.0
 
     def begin_leg(self) -> None:
-        """Bring the hand, pointing straight down, to the nearest place of the board, and count from there."""
+        """Bring the hand, pointing straight down, to the nearest place of the board. Set the step counts of the axes
+        to this place.
+        """
         self._axes = self._tool.axes
         here = self._axes.read().q
         goal = np.array([*here[:3], *DOWN, here[6] if self._hand_open else -0.02])
