@@ -111,7 +111,7 @@ class Operation(
 
     @property
     def undoes(self) -> int:
-        """How many times, at most, the operation reverses and repeats its stage."""
+        """Greatest number of times that the operation reverses and repeats its stage."""
         return 0
 
     @property

@@ -1,5 +1,5 @@
-"""Manages the checkpoints of one run in a folder. This module writes and finds them. If the run goes back to an
-earlier point, it removes the checkpoints made after that point.
+"""Manages the checkpoints of one run in a folder. This module writes and finds the checkpoints. If the run goes back
+to an earlier point, the module removes the checkpoints made after that point.
 """
 
 import re
