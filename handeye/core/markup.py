@@ -74,7 +74,7 @@ def contents(sections: Iterable[Markup]) -> Markup:
 
 
 def region(*children: Content, label: str, **attributes: str | None) -> Markup:
-    """Build a separately scrolling part of a section. The label is read by screen readers."""
+    """Build a part of a section that scrolls by itself. The label is read by screen readers."""
     return element("section", *children, **attributes, aria_label=label, tabindex="0")
 
 

@@ -57,7 +57,7 @@ class Effects:
 
     @property
     def first(self) -> int:
-        """Number of shown phases when the program begins."""
+        """Number of phases of the claim that are true when the program begins, before any step shows them."""
         return self.whole if self.claim.at_first else 0
 
     def _table(self, passed: Passed) -> Table | None:
