@@ -469,7 +469,7 @@ class System(ABC):
         return {}
 
     def page(self, folder: Path) -> bytes | None:
-        """Return the report of the finished run in a folder, made from the system's own files; None if the
+        """Make the report of a finished run from the system's own files in the run's folder. Return None if the
         general report is used.
         """
         return None

@@ -1,5 +1,6 @@
-"""The language service for scripts, which contain lines typed at TRIG, and for programs that the command W has
-written."""
+"""The language service for TRIG. It handles scripts, which contain the lines that a user types, and programs that the
+command W has written.
+"""
 
 from typing import Final
 

@@ -118,7 +118,7 @@ def in_holder() -> Array:
 
 
 def _add_pin(shaper: Shaper, body: mujoco.MjsBody) -> None:
-    """Add the shapes of the pump's aligning pin, with a rounder nose, to a body."""
+    """Add the shapes of a pin to a body. The pin is the pump's aligning pin with a rounder nose."""
     d = dimensions()
     r, length, bevel = d("pin.nose_radius"), d("pin.nose_length"), d("pin.nose_bevel")
     nose = [(r - bevel, -length), (r, bevel - length), (r, 0.0)]

@@ -169,8 +169,8 @@ def _matrix(quat: Array) -> Array:
 
 
 def add_stop(spec: mujoco.MjSpec, world: ArmWorld, place: tuple[int, int], moved: float = 0.0) -> None:
-    """Add the stop, an upright pin, at a place of the slides. The stop is displaced from this place by its error in
-    the world.
+    """Add the stop, an upright pin. `place` is a place in coordinates of the slides. The stop is displaced from this
+    place by its error in the world.
 
     Args:
         moved: a further displacement of the stop along y (m).
