@@ -37,7 +37,9 @@ def aligned(before: Sequence[Step], after: Sequence[Step]) -> list[Pair]:
 def _matched(
     before: Sequence[Step], after: Sequence[Step], old: range, new: range, keys: tuple[Any, ...]
 ) -> Iterator[Pair]:
-    """Match two ranges of steps by the first of `keys`, and the steps between the matches by the remaining keys."""
+    """Match the steps of two ranges by the first of `keys`. Then match the steps between these matches by the other
+    keys.
+    """
     if not keys or not old or not new:
         yield from ((number, None) for number in old)
         yield from ((None, number) for number in new)

@@ -68,8 +68,8 @@ def mistakes(checked: PlannedScript, line: int) -> list[Diagnostic]:
 
 
 def lasting(lines: Sequence[str]) -> list[str]:
-    """Return the definitions in lines: macros, positions and vectors. These definitions remain valid for instructions
-    that are executed alone.
+    """Return the lines that define macros, positions and vectors. These definitions remain valid for instructions that
+    are executed alone.
     """
     script, _ = parse("\n".join(lines))
     written = [lines[s.line - 1] for s in script.statements if s.word is not None and s.word.text in _LASTING]

@@ -227,7 +227,7 @@ def _variables(plan: MalPlan, op: Literal["PUSHV", "POPV"]) -> set[str]:
 
 
 def _counted(plan: MalPlan) -> set[str]:
-    """Return the variables that a FOR counts or an INPUT asks for."""
+    """Return the counting variables of all FORs, and the variables for which an INPUT asks."""
     return {str(each.operand) for each in plan.program.code if each.op in ("FOR", "IN")}
 
 

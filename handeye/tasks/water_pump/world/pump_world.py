@@ -72,7 +72,7 @@ class PumpWorld(ArmWorld):
 
     @classmethod
     def of(cls, world: World) -> Self:
-        """Sort the values that were drawn for a world by device and part."""
+        """Group the drawn values of a world by device and part."""
         numbers = range(1, round(world[SCREWS]) + 1)
         return cls(
             **arm_values(world, RUBBING),
