@@ -101,7 +101,7 @@ class AssemblyEnv(gymnasium.Env[Observation, Array]):
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
     ) -> tuple[Observation, dict[str, Any]]:
-        """Begin an episode in the world of `seed` or, without a seed, in a world whose seed is drawn.
+        """Begin an episode in the world of `seed` or, without a seed, in a world whose seed is chosen at random.
 
         Args:
             options: arguments of `handeye.World` for this episode only, such as `{"level": "high"}`.

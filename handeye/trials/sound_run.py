@@ -110,8 +110,8 @@ def _begun(store: CheckpointStore, stages: Sequence[str]) -> Iterator[tuple[int,
 
 
 def with_faults(start: Checkpoint, faults: Sequence[Fault]) -> Checkpoint:
-    """Change the state of a fault-free run to that of a run with faults that begin later. Raises InvalidInput
-    if that is impossible.
+    """Add faults to the world of a fault-free run. The faults begin after the state in `start`. Raises InvalidInput if
+    the faults are impossible.
     """
     if not faults:
         return start
