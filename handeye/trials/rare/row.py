@@ -100,16 +100,16 @@ def usual(rows: Sequence[RareRow]) -> Usual:
 
 
 def limits_left(checks: Mapping[str, Check]) -> dict[str, float]:
-    """Return how far each finding is within its limit, in the unit of the finding. A finding exactly at its limit is
-    left out: only counts reach their limits exactly, and a count at its limit is right.
+    """Return the distance of each finding from its limit, in the unit of the finding. A finding exactly at its limit
+    is left out: only counts reach their limits exactly, and a count at its limit is right.
     """
     found = {name: check_left(check) for name, check in checks.items() if not check.caution}
     return {name: left for name, left in found.items() if left or not checks[name].ok}
 
 
 def check_left(check: Check) -> float:
-    """Return how far a finding is within its limit, in the unit of the finding; negative if the finding is beyond the
-    limit.
+    """Return the distance of a finding from its limit, in the unit of the finding. The distance is positive within the
+    limit and negative beyond it.
     """
     left = check.limit - check.value
     return left if check.relation == "at most" else -left

@@ -157,7 +157,7 @@ _Grid = dict[tuple[int, int], tuple[Style, str]]  # by row and column
 
 
 def full_display(program: TrigProgram, width: int, height: int, symbols: Symbols = UNICODE) -> list[Line]:
-    """Draw the whole program, or as much of it around the active step as fits."""
+    """Draw the whole program. If it does not fit, draw only the part around the active step."""
     if program.first == NONE:
         return [[("active", "[ ]")]]
     drawn = layout(program.graph, top=program.cursor == TOP)
