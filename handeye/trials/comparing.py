@@ -15,7 +15,9 @@ Key = tuple[str, int, int]  # Condition, seed, and index of the trial in that wo
 
 
 class Difference(Record, frozen=True, kw_only=True):
-    """The difference between two batches in a measured value, over the pairs in which both trials succeeded."""
+    """The difference between two batches in a measured value. Only pairs of trials in which both trials succeeded
+    count.
+    """
 
     pairs: int
     more: float  # Median, over the pairs, of the value in this batch minus the value in the first batch

@@ -76,8 +76,8 @@ def lint(lines: Mapping[int, Line]) -> Iterator[Diagnostic]:
 def _unguarded(
     lines: Mapping[int, Line], known: Mapping[int, Watch], motions: list[int]
 ) -> Iterator[Diagnostic]:
-    """Warn of motions of the arm without a guard. If several such motions follow each other, only the first one is
-    marked.
+    """Warn of arm motions during which no sensor is guarded. If several such motions follow each other, only the first
+    one is marked.
     """
     of_the_arm = [number for number in motions if lines[number].statement.code not in ("HAND", "DHAND")]
     for guarded, group in groupby(of_the_arm, key=lambda number: bool(known[number].guarded)):
