@@ -161,8 +161,8 @@ class _Side:
         self._window = list(zip(*self._turned_window(across, along, offset), strict=True))
 
     def moves(self, box: list[int], threshold: float) -> bool:
-        """Find a line that crosses the blob somewhat outside this side of the box, and move the side to the end of the
-        blob beyond this line. Returns False if no such line crosses the blob.
+        """Look for lines that lie a little outside this side of the box and still cross the blob. If there are such
+        lines, move the side to the line at which the blob ends. Returns False if there are none.
         """
         line = self._line(box[self.number])
         low, high = (box[1], box[3]) if self.upright else (box[0], box[2])

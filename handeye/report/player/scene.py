@@ -242,8 +242,8 @@ the scene, and to the left of the viewer.
 
 
 def views(model: Any) -> list[dict[str, Any]]:
-    """Return the views of a scene. Each view has a name, the position `eye` of the viewer (m), the point `at` which
-    the viewer looks (m), and a viewing angle (degrees).
+    """Return the views of a scene. Each view has a name and a viewing angle (degrees). `eye` is the position of the
+    viewer (m), who looks at the point `at` (m).
 
     In a view with a `body`, `eye` and `at` are relative to the body's position, along the axes of the world.
     """
