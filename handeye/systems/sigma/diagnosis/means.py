@@ -69,8 +69,8 @@ def self_tests(at: Technician) -> SelfTests:
 
 @dataclass(frozen=True, slots=True)
 class Clocks:
-    """By how many percent the clock of each microcomputer is slower than usual, measured by the times of its answers.
-    The value is None for a microcomputer that does not answer.
+    """The clock error of each microcomputer: the percentage by which the clock is slower than usual. It is measured by
+    the times of the microcomputer's answers. The value is None for a microcomputer that does not answer.
     """
 
     slow: dict[int, float | None]

@@ -96,7 +96,7 @@ def _screw_inertia(density: float) -> tuple[float, float, tuple[float, float, fl
 
 
 def screw_look(shaper: Shaper, body: mujoco.MjsBody) -> list[mujoco.MjsGeom]:
-    """Add the visible surface of a screw: threaded shank and slotted head, with the origin at the point."""
+    """Add the visible surface of a screw: threaded shank and slotted head. The origin is at the tip of the screw."""
     return [shaper.look(body, f"screw_{name}", name, part) for name, part in _screw_surfaces().items()]
 
 
