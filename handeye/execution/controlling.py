@@ -26,7 +26,7 @@ def repeated(periods: Sequence[CommandedPeriod]) -> Controller:
 
 def controlled(run: ExecutionContext, controller: Controller, most: int) -> tuple[CommandedPeriod, ...]:
     """Let a controller command servo periods until the controller ends; `most` is the greatest number of periods. Then
-    set the brakes until the arm stands still. Returns the commands.
+    brake until the arm stands still. Returns the commands.
 
     Earlier steps can no longer be undone: a reversal must begin where the last step ended, and the controller has
     moved the arm away from there. From then on, the program assumes that an object may touch the hand.

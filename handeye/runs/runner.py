@@ -198,7 +198,7 @@ class Runner:
 
     @property
     def places(self) -> tuple[TaskPlace, ...]:
-        """The position of each unfinished task in the program. The property `at` gives the next step of the task that
+        """For each unfinished task, its place in the program. The property `at` gives the next step of the task that
         runs next.
         """
         return self.system.state.places

@@ -80,8 +80,8 @@ def _rotated(outline: Rectangle, yaws: Array) -> Array:
 
 
 def silhouettes(view: View, part: Part, place: tuple[float, float] | Array, turns: Array) -> Array:
-    """Return, for each turn, the picture points of the corners of the outline at the bottom and at the top of the
-    part, shape (n, 8, 2).
+    """Project the corners of the outline, at the bottom and at the top of the part, into the picture. Returns eight
+    picture points for each turn, shape (n, 8, 2).
     """
     assert part.outline is not None
     corners = _rotated(part.outline, part.at[3] + turns) + np.asarray(place)
