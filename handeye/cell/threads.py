@@ -242,7 +242,9 @@ class Threads(Mechanism[ThreadsState]):
         return float(self._data.qvel[self._free(screw)[1] + 5])  # free joints turn in body axes
 
     def _free(self, screw: int) -> tuple[int, int]:
-        """Return the indices of the positions and rates of a loose screw in the state of the simulator."""
+        """Return two indices: where the positions of a loose screw begin in the state of the simulator, and where its
+        rates begin.
+        """
         body = self._screw[screw]
         return int(self._model.jnt_qposadr[self._model.body_jntadr[body]]), int(self._model.body_dofadr[body])
 

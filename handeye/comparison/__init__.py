@@ -1,1 +1,1 @@
-"""Compares two runs step by step: their first difference, searches, guarded motions and corrections."""
+"""Compares the steps, searches, guarded motions and corrections of two runs, and finds their first difference."""
