@@ -120,8 +120,8 @@ class Servo:
         )  # fmt: skip
 
     def _rubbing(self, rate: Array) -> Array:
-        """Return the known friction of joints that slide at a rate, shape (..., n). Friction of joints that hardly
-        slide is reduced; see `sliding`.
+        """Return the known friction of joints that slide at given rates. Both arrays have shape (..., n). Friction of
+        joints that hardly slide is reduced; see `sliding`.
         """
         return np.asarray(self.state.friction * sliding(self.arm, rate))
 

@@ -127,7 +127,7 @@ def pushes(campaign: Campaign, kind: FailureKind, found: Sequence[NearWorld]) ->
 
 
 def _chosen(campaign: Campaign, kind: FailureKind, count: int) -> list[Failing]:
-    """Return the nearest failing worlds, no two of them with the same noise."""
+    """Return the failing worlds nearest to the middle of all quantities. No two of these worlds have the same noise."""
     mine = [each for each in campaign.failing if each.kind == kind]
     ordered = sorted(mine, key=lambda each: campaign.space.distance(each.point.numbers))
     chosen: dict[int, Failing] = {}
