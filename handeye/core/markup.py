@@ -89,7 +89,7 @@ def to_moment(seconds: float, *children: Content, **attributes: str | None) -> M
 
 
 def table(head: Iterable[Markup], rows: Iterable[Iterable[Markup]], *, label: str) -> Markup:
-    """Build a table, which scrolls separately if the window is narrow."""
+    """Build a table. If the window is narrow, the table scrolls by itself, without the page."""
     titles = element("tr", *head)
     body = element("tbody", *(element("tr", *row) for row in rows))
     inside = element("table", element("thead", titles), body)

@@ -74,7 +74,7 @@ def _saved(graph: Graph, bits: dict[int, int]) -> list[int | None]:
     """Return, for each step, a bit set of the names that may have been saved before the step; None if the step is
     unreachable.
 
-    The sets are propagated forwards through the steps until nothing changes.
+    The sets are propagated forwards through the steps until no set changes any more.
     """
     before: list[int | None] = [None] * len(graph.steps)
     before[0] = 0
