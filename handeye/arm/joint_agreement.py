@@ -266,9 +266,9 @@ def blown(here: Dynamics, impulse: Array) -> Array:
 def thrown(M: Array, work: float, period: float) -> Array:
     """Return how far each joint, shape (n,), can move within a servo period (s) if `work` (J) is done on the hand.
 
-    An object that shifts in the fingers lets them close, and the work of the fingers throws the hand. The object may
-    stop the hand again within the period, so afterwards neither rate nor momentum shows the throw. A joint moves
-    farthest if all the work becomes motion of this joint, at the beginning of the period. `M` is the mass matrix,
-    shape (n, n).
+    If an object shifts in the fingers, the fingers close a little. The work that they do in closing throws the hand.
+    The object may stop the hand again within the period, so afterwards neither rate nor momentum shows the throw. A
+    joint moves farthest if all the work becomes motion of this joint, at the beginning of the period. `M` is the mass
+    matrix, shape (n, n).
     """
     return np.asarray(period * np.sqrt(2 * work * np.linalg.inv(M).diagonal()))

@@ -152,8 +152,8 @@ class MotorSlow(CauseRecord, frozen=True, kw_only=True):
 
 
 class MotorFast(CauseRecord, frozen=True, kw_only=True):
-    """The motor turns too fast: nothing loads the motor, but its speed still increased after `times` times the usual
-    time.
+    """The motor turns too fast. Nothing loads the motor, but it needed more than the usual time to reach a steady
+    speed: after the usual time multiplied by `times`, its speed still increased.
     """
 
     times: float
