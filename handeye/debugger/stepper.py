@@ -125,8 +125,8 @@ def interact(
     most: int | None = None,
     live: Live | None = None,
 ) -> Pause:
-    """Execute commands, one per line, until the user leaves the session. The end of the lines means `quit`.
-    Returns the reason why the run paused.
+    """Execute commands, one per line, until the user leaves the session. If there are no more lines, the session ends
+    as with the command `quit`. Returns the reason why the run paused.
 
     Args:
         write: prints lines of text, which it gets without the final newline.

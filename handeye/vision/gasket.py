@@ -254,8 +254,8 @@ def _seen(view: View, place: Array, hole: Hole) -> tuple[tuple[float, float], fl
 
 
 def _bulge(new: Scan, old: Scan, view: View, centre: Array, hole: Hole, steps: _Steps) -> float | None:
-    """Measure the bulge (m) of the border in the difference, around the base's hole at `centre` (in metres, shape
-    (3,)).
+    """Measure the bulge (m) of a hole's border around the base's hole at `centre` (in metres, shape (3,)). The picture
+    without the gasket (`old`) shows which part of the border is undisturbed.
 
     The gasket's hole and the base's hole overlap, and the border is the outline of these two discs together. Half of
     this border is nearly undisturbed, so the bulge is measured from the median radius. An aligning pin may hide the

@@ -1,4 +1,6 @@
-"""The witness of a hand-over. It records how many pieces the program has counted, and how long the arms touched."""
+"""The witness of a hand-over. It records how many pieces the program has counted, and for how long the arms touched
+each other.
+"""
 
 import re
 from typing import Final
