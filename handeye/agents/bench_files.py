@@ -52,8 +52,8 @@ class TaskFiles:
         return own | made
 
     def text(self, name: str, without: frozenset[str] = frozenset()) -> str:
-        """Return the text of the file `FOLDER/NAME`. If this file is read to derive other files from it, `without`
-        names these other files; none of them may be read again.
+        """Return the text of the file `FOLDER/NAME`. If other files are being derived from this file, `without` names
+        these other files. Raises BadFile if the text can only be derived from one of them.
         """
         place = f"{self.folder.name}/{name}"
         if name not in self.derived:

@@ -27,8 +27,8 @@ def hand_poses(model: mujoco.MjModel, time: float) -> dict[str, Array]:
 
 
 def drawn_poses(model: mujoco.MjModel, names: Iterable[str], times: Array) -> dict[str, Array]:
-    """Return the poses of bodies that are fixed in the world, in W, at times (s) of the cell's clock. The keys are
-    the names of the bodies; the poses of each body have shape (n, 7).
+    """Return the poses, in W, of bodies that no force moves: bodies at a fixed place, and clock hands. `times` are in
+    s on the cell's clock. The keys are the names of the bodies; the poses of each body have shape (n, 7).
 
     A pose is a position (m), then a unit quaternion w, x, y, z. Clock hands turn clockwise about their z axis, and
     point to twelve at time 0.

@@ -28,7 +28,7 @@ def add_vehicle(
     spec: mujoco.MjSpec, name: str, at: tuple[float, float], turned: float, friction: float, clearance: float, *,
     peg: float = PEG, blocked: bool = False,
 ) -> None:  # fmt: skip
-    """Put the engine, or a wagon with its peg, on the table, at x and y of the slides (m).
+    """Put the engine, or a wagon with its peg, on the table. `at` gives x and y in coordinates of the slides (m).
 
     Args:
         peg: diameter of the vehicle's peg (m); 0 if the vehicle has lost its peg.

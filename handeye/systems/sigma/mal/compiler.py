@@ -98,8 +98,8 @@ class MalProgram:
         return None
 
     def check_alone(self) -> None:
-        """Raise BadFile unless SUPERSIGMA alone can run the program. A missing microcomputer reports nothing, so the
-        program would not notice that the microcomputer is missing.
+        """Raise BadFile if the program uses an axis or a hand that only the assembly line has. A missing microcomputer
+        reports nothing, so the program would not notice that the microcomputer is missing.
         """
         if self.beyond is not None:
             raise BadFile(
