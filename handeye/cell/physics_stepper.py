@@ -196,7 +196,7 @@ class PhysicsStepper:
 
     def step(self, steps: int) -> None:
         """Advance by `steps` short steps, or by longer steps that cover the same time. If the computation diverges,
-        or a finger is crushed, cover this time again in fine steps.
+        or a finger is crushed, the time is covered again in *fine* steps, which are shorter than short steps.
         """
         mujoco.mj_getState(self._model, self._data, self._before, _WHOLE_STATE)
         broken = self._warned()
@@ -329,8 +329,8 @@ class PhysicsStepper:
             impedance[:] = value
 
     def _held(self, touching: BodyPairs) -> tuple[tuple[int, int], ...]:
-        """Return the bodies that the hand carries while the pairs of bodies in `touching` touch (see `_Contacts`). A
-        carried body touches the hand or another carried body.
+        """Return the bodies that the hand carries. `touching` gives the pairs of bodies that touch (see `_Contacts`).
+        A carried body touches the hand or another carried body.
         """
         pairs = [{int(self._model.body_treeid[body]) for body in pair} for pair in touching]
         hand = int(self._model.body_treeid[self._hand])

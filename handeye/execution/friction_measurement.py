@@ -1,11 +1,11 @@
 """Measures joint friction and link weights with the arm itself, before the first step of the program.
 
-This is the textbook method: each joint moves slowly out and back over the same range at a constant rate. The torque
-that friction takes changes sign between the motion out and the motion back, so friction is half the difference between
-the two drive torques. A second, quicker pass removes the part of friction that is proportional to the rate: the line
-through both passes gives the Coulomb friction at rate 0 (Armstrong-Helouvry, Dupont and Canudas de Wit, Automatica 30,
-1994, on identification). All joints move at the same time, because the friction of a joint appears only in the torque
-of that joint. The mean of the two drive torques is the weight torque, whatever the friction.
+This is the textbook method: each joint moves slowly out and back over the same range at a constant rate. The friction
+torque changes sign between the motion out and the motion back, so friction is half the difference between the two
+drive torques. A second, quicker pass removes the part of friction that is proportional to the rate: the line through
+both passes gives the Coulomb friction at rate 0 (Armstrong-Helouvry, Dupont and Canudas de Wit, Automatica 30, 1994,
+on identification). All joints move at the same time, because the friction of a joint appears only in the torque of
+that joint. The mean of the two drive torques is the weight torque, whatever the friction.
 """
 
 from collections.abc import Callable, Sequence

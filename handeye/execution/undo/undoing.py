@@ -253,7 +253,7 @@ def _press(run: ExecutionContext, gap: float) -> None:
 
 
 def _turn_out(run: ExecutionContext, done: ExecutedStep) -> UndoFailure | None:
-    """Reverse a step with the screwdriver on: turn out the screw that the step drove home. The screw then hangs
+    """Reverse a step in which the screwdriver was on: turn out the screw that the step drove home. The screw then hangs
     from the bit.
 
     If the step only tightened a screw that was already driven, the screw stays in.
