@@ -46,7 +46,7 @@ CURVES: Final = (
 
 class Train(Record, frozen=True, kw_only=True):
     """A train of pulses. A train of the kind `profile` has `steps` pulses, begins and ends at the speed `start`, and
-    does not exceed `top`. A train of the kind `stop` is a stop from the speed `top`.
+    does not exceed `top`. A train of the kind `stop` slows the motor down from the speed `top` until it stands.
     """
 
     kind: Literal["profile", "stop"] = "profile"
