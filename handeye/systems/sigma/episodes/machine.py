@@ -158,7 +158,7 @@ class GantryControls(Controls):
 
     def _ask(self) -> None:
         """Read the status lines, and ask every microcomputer that can answer. If an axis was stopped, the question for
-        the axis's count clears its status.
+        the axis's count clears the status of the axis.
         """
         self._statuses = self._shown()
         for index, axis in enumerate(AXES):
