@@ -24,7 +24,7 @@ class Edge(NamedTuple):
     """An edge to another node.
 
     `outcome` is the outcome of the action at the start of the edge: SUCCESS, or the number of the raised error.
-    `outcome` is None if the step is no action. `taken` is True if a test found its error, or if a counter was still
+    `outcome` is None if the step is not an action. `taken` is True if a test found its error, or if a counter was still
     positive.
     """
 

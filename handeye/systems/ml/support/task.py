@@ -95,7 +95,8 @@ class Support(ArmTask):
 def screwing(
     spec: mujoco.MjSpec, world: ArmWorld, others: Sequence[Mechanism[Any]] = ()
 ) -> tuple[Station, ForceGauge]:
-    """Return the station of a scene with the parts of the support. The screws and the screwdriver work.
+    """Return the station of a scene with the parts of the support, and its force gauge. In this station, the
+    screwdriver can drive the screws.
 
     Args:
         others: other mechanisms of the job. The cell keeps the state of these mechanisms, but they do nothing as time
