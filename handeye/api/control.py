@@ -45,7 +45,7 @@ returns None, the control ends.
 
 
 def take_control(runner: Runner, controller: Controller, seconds: float) -> str:
-    """Let a controller command the arm for at most `seconds` of simulated time. Returns the reason why the control
+    """Hand the arm over to a controller for at most `seconds` of simulated time. Returns the reason why the control
     ended, as a text. If the controller or the simulation fails, the run returns to its state before the control.
 
     Raises:

@@ -63,7 +63,7 @@ class BenchAxes(Axes, Mechanism[AxesState]):
         at_once: Sequence[str] = (),
         bent: Callable[[Array], Array] = np.zeros_like,
     ) -> None:
-        """Make a machine of joints in the scene, and add it to the bench.
+        """Make a machine from joints of the scene, and add the machine to the bench.
 
         Args:
             specs: the axes of the machine. The name of an axis is also the name of its joint and its servo. A servo

@@ -106,7 +106,7 @@ class MicrobusPort(ABC):
         The new time may be later than `until` if the machine is simulated in longer steps.
 
         If the simulation of the machine is slow, `wait` may also return before `until`, so that a person can interrupt
-        it. The caller must then call `wait` again.
+        the simulation. The caller must then call `wait` again.
         """
 
     @property

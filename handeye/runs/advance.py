@@ -93,7 +93,7 @@ class AfterStage(StopCondition, frozen=True, kw_only=True):
 
 
 class ReversalEnd(StopCondition, frozen=True, kw_only=True, tag="Undone"):
-    """Pause when the arm has undone all steps that the order to undo named."""
+    """Pause when the arm has undone all the steps that it was asked to undo."""
 
     def met_before(self, runner: Runner) -> bool:
         return isinstance(runner.events[-1], UndoEnded)

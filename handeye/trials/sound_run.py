@@ -49,8 +49,8 @@ class SoundRun:
         return found
 
     def before(self, stage: int) -> Checkpoint:
-        """Return the stored state before the first step of a stage, whose number counts from 1. Raises InvalidInput if
-        there is no such state.
+        """Return the stored state before the first step of a stage. The first stage has the number 1. Raises
+        InvalidInput if there is no such state.
         """
         begun = [start for start, number in zip(self.starts, self.stages, strict=True) if number == stage]
         if not begun:

@@ -141,8 +141,8 @@ _NAMES: Final[tuple[LargeHole, LargeHole]] = ("largest", "second")
 
 
 def _as_seen(old: Scan, view: View, part: Part, places: Array) -> Array:
-    """Return the positions of the base's holes (in metres, shape (2, 3)), corrected by the position error of the
-    largest hole in the picture without the gasket.
+    """Return the corrected positions of the base's holes (in metres, shape (2, 3)). The largest hole is located in the
+    picture without the gasket. Its position error corrects the positions of both holes.
 
     The aim of the mount may differ from the readings of its potentiometers by more than the width of a hole's border.
     But the arm knows the position of the base to within less than this width. If the hole is not found, the positions

@@ -141,8 +141,8 @@ def _numb(fingers: tuple[bool, bool]) -> str:
 
 
 def _untouched(cause: s.SwitchesOpen) -> str:
-    """Write why the switches are open. If only one switch is open, the motor is not too weak, because it closed the
-    other switch.
+    """Write why the switches are open. If only one switch is open, the motor closed the other switch. In this case,
+    the motor is strong enough.
     """
     causes = _numb(cause.fingers) if all(cause.fingers) else _failed(cause.fingers)
     return causes if cause.fits else f"{causes}, or something stands between the fingers beside their tips"

@@ -138,7 +138,7 @@ class Level(ABC):
     @abstractmethod
     def start(self, goals: Mapping[int, int]) -> bool:
         """Give motors new strategic goals. Returns False, and changes nothing, if the flag of any sensor is on. If
-        MlError (M09, M10, M15) is raised, the motion has changed nothing.
+        this method raises MlError (M09, M10, M15), it has changed nothing.
         """
 
     # -- power and devices ----------------------------------------------------------------------------

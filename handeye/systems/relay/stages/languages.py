@@ -85,7 +85,7 @@ def stage_named(name: str) -> str:
 
 
 def stage_legs(stage: str) -> Iterator[StageLeg]:
-    """Yield the legs of a stage, that of the arm language first."""
+    """Yield the legs of a stage. The first is the leg in the arm language."""
     for language, file in {"1973": CAREFUL, **FILES.get(stage, {})}.items():
         yield StageLeg(stage=stage, language=language, file=file, lines=_lines(stage, file))
 

@@ -91,8 +91,8 @@ def loose_screws(holes: tuple[Thread, ...]) -> list[str]:
 
 
 def _altered(truth: Truth) -> dict[str, list[str]]:
-    """Return the parts that differ from the design, each with the kinds of its differences. The friction and
-    drives of the arm are left out, because they change during work.
+    """Return the names of the parts that differ from the design. For each part, list in what ways it differs. The
+    friction and drives of the arm are left out, because they change during work.
     """
     model = truth.model
     found = altered(model, _as_it_is_to_be(truth), np.ones(model.nbody, bool))
