@@ -89,7 +89,9 @@ class Trace(recorded.Trace):
             raise CannotWrite(f"{file} already exists; overwrite=True replaces it") from None
 
     def _repr_html_(self) -> str:
-        """Show the run's report in an HTML frame, with its size in MB. If there is no report, show the reason."""
+        """Show the run's report in an HTML frame, and say how large the report is (MB). If there is no report, show
+        the reason.
+        """
         try:
             file = _report(self)
         except InvalidInput as fault:

@@ -100,7 +100,9 @@ class ChannelCurve(Brief):
 
 
 def read_channels(messages: Iterable[RawMessage]) -> tuple[ChannelCurve, ...]:
-    """Return all components of the channels in messages. Raises DecodeError if a message is invalid."""
+    """Read from messages the curves of all channels, one curve for each component. Raises DecodeError if a message is
+    invalid.
+    """
     found: dict[tuple[str, str], list[tuple[float, float]]] = {}
     for message in messages:
         for channel in decoded_channels(message.data):
