@@ -79,8 +79,7 @@ def gravity(q: ArrayLike, arm: ArmModel | None = None) -> Array:
 
 
 def mass_matrix(q: ArrayLike, arm: ArmModel | None = None) -> Array:
-    """Return the mass matrix of the arm, including the inertia of its drives. `q` of shape (..., n) gives a result of
-    shape (..., n, n).
+    """Return the mass matrix of the arm, including the inertia of its drives: shape (..., n) gives shape (..., n, n).
 
     Raises:
         BadArgument: `q` has the wrong number of joints, or is not finite.

@@ -178,7 +178,7 @@ def until(messages: Iterable[RawMessage], events: int | None) -> Iterator[RawMes
 
 
 def known(data: bytes, events: Sequence[Event]) -> int:
-    """Compare `events` with the events in a trace, and return the number of equal events before the first difference."""
+    """Compare `events` with the events in a trace. Return the number of equal events before the first difference."""
     written = (message.data for message in read_messages(data, lenient=True) if message.topic == EVENTS)
     count = 0
     for event, there in zip(events, written, strict=False):

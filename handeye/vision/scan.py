@@ -99,7 +99,7 @@ class Scan:
 
     @property
     def points(self) -> int:
-        """Number of points that have been read. A point that was read several times counts once."""
+        """Number of points read; each point counts once."""
         return int(np.count_nonzero(self.read))
 
     def open(self) -> None:
