@@ -46,8 +46,9 @@ def columns(values: NDArray[Any]) -> NDArray[np.uint16]:
 
 
 def zigzag(values: NDArray[Any]) -> NDArray[np.uint32]:
-    """Return the differences between successive whole numbers, shape (n,). Negative differences become odd
-    numbers: 0, -1, 1, -2 become 0, 1, 2, 3."""
+    """Return how much each whole number differs from the number before it, shape (n,). Negative differences become odd
+    numbers: 0, -1, 1, -2 become 0, 1, 2, 3.
+    """
     steps = np.diff(values.astype(np.int64), prepend=0)
     return np.where(steps < 0, -2 * steps - 1, 2 * steps).astype(np.uint32)
 

@@ -1,4 +1,4 @@
-"""Reads the files of relays. Each line names a stage, and the file whose program does it:
+"""Reads the files of relays. Each line names a stage, and the file with the program for this stage:
 
 ; a comment
 STAGE "insert the aligning pins"  pins.trig
