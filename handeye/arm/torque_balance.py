@@ -6,10 +6,10 @@ measured friction. Any remaining torque is due to errors of masses, mass centres
 so each motion refines their estimate, until almost no torque remains unexplained in a motion at a new posture. The
 method is recursive least squares with a prior (Gauss); the prior is the uncertainty that remains after the arm has
 weighed itself. This uncertainty is computed for twice the usual errors of masses, mass centres and drives. If a torque
-remains unexplained in a later motion, a drive has changed. Measured in three worlds, one of them with errors of the
-level `high`: over the table, joint 2 of the Stanford arm has a weight torque of 18 N m, and the estimate of this
-torque is right to within .27 N m. Joint 3 carries a weight of 5 to 20 N, and the estimate of this weight is right to
-within .6 N. A joint that carries no weight gives no information.
+remains unexplained in a later motion, a drive has changed. The following figures were measured in three worlds, one of
+them with errors of the level `high`. Over the table, joint 2 of the Stanford arm has a weight torque of 18 N m, and
+the estimate of this torque is right to within .27 N m. Joint 3 carries a weight of 5 to 20 N, and the estimate of this
+weight is right to within .6 N. A joint that carries no weight gives no information.
 """
 
 from collections.abc import Sequence

@@ -156,7 +156,9 @@ class First:
 
     @property
     def place(self) -> Place | None:
-        """The step at which the first run differs, or the step of the second run if the first run has ended."""
+        """The step of the first run in which the difference lies. If the first run has not begun or has ended there,
+        this is the step of the second run.
+        """
         return self.a or self.b
 
 

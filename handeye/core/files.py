@@ -186,8 +186,8 @@ class LineFile:
     """A file to which whole lines are appended, by one writer at a time."""
 
     def __init__(self, path: Path, writer: str, *, again: bool = True) -> None:
-        """Open a file to append lines. An incomplete last line is cut off. If `again` is False, a new file is started
-        instead. Raises CannotWrite if another process has the file open; `writer` names that process in the error
+        """Open a file to append lines. An incomplete last line is cut off. If `again` is False, all earlier lines are
+        deleted. Raises CannotWrite if another process has the file open; `writer` names that process in the error
         message.
         """
         self.path = path

@@ -107,8 +107,8 @@ class AssemblyEnv(gymnasium.Env[Observation, Array]):
             options: arguments of `handeye.World` for this episode only, such as `{"level": "high"}`.
 
         Returns: the first observation, and a dictionary with these entries: the world; the stage of the program with
-            which the episode begins; what the machine has measured of itself or was taught; and the seeds of the
-            worlds that were passed over, because the program does not reach this stage in them.
+            which the episode begins; what the machine has measured about itself, and what it was taught; and the seeds
+            of the worlds that were passed over, because the program does not reach this stage in them.
 
         Raises:
             InvalidInput: the seed or an option cannot be used.

@@ -213,8 +213,8 @@ def _unlike(run: ExecutionContext, least: float, maximum: float | None) -> GapUn
 
 
 def _nominal(run: ExecutionContext) -> tuple[str, float | None]:
-    """Return the name of the object that the hand should hold at this place, and its nominal thickness (m). Returns ""
-    and None if the object is not known.
+    """Return the name of the object that the hand should hold at its present position, and the object's nominal
+    thickness (m). Returns "" and None if the object is not known.
     """
     objects = run.plan.program.held.items()
     known = ((name, held.thickness) for name, held in objects if run.state.place in held.positions)

@@ -208,8 +208,8 @@ def trials_in_world(condition: Condition, last: InsertionTrial) -> list[Insertio
 
 
 def fetched(plan: Plan, seed: int) -> Runner:
-    """Execute a run in the world of a seed until its second stage begins. The hand then holds the pin. If the run
-    stops earlier, execute it until it stops.
+    """Execute a run in the world of a seed until its second stage begins. The hand then holds the pin. The run may
+    also stop before its second stage.
     """
     world = WorldSpec(seed=seed, overrides=Overrides(set=Condition().hole))
     setup = Setup(plan=plan, world=world, camera="ray")

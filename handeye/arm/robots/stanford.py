@@ -22,8 +22,8 @@ def _moments_about_centre(about_origin: Triple, mass: float, centre: Triple) -> 
     """Compute, by Steiner's theorem, the moments of inertia about the mass centre from the published tensors,
     which are about the *origin* of the link.
 
-    The tensors are published without products of inertia, so the products at the mass centre are set to zero as
-    well. The largest neglected product, of link 1, would be .018 kg m2.
+    The tensors are published without products of inertia. The products of inertia about the mass centre are therefore
+    set to zero. The largest neglected product, of link 1, would be .018 kg m2.
     """
     x, y, z = centre
     a, b, c = about_origin

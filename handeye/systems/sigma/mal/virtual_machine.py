@@ -115,7 +115,9 @@ class VirtualMachine:
         memory.worked += self.machine.now - began
 
     def settle(self) -> None:
-        """Let time pass until a task can begin a statement, all tasks have ended, or the program has stopped."""
+        """Let time pass until a task can begin a statement, until all tasks have ended, or until the program has
+        stopped.
+        """
         self.memory.turn = ""
         while self.memory.fault is None and self.memory.tasks:
             self._see_aborts()

@@ -68,8 +68,8 @@ def _add_rack(shaper: Shaper, fixture: Fixture) -> None:
     """Add the rack: four posts that guide the corners of the grip block, and a square guide with a lead-in. The
     spindle hangs between the posts.
 
-    The socket at the end of the spindle enters between the posts before the block reaches the guide. Therefore the
-    socket's clearance is greater than the lead-in of the guide.
+    The socket at the end of the spindle enters between the posts before the block reaches the guide. The clearance
+    between the socket and the posts is therefore greater than the lead-in of the guide.
     """
     d = dimensions()
     (x, y), height = d.all("rack.place"), d("rack.height")
