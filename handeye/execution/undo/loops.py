@@ -69,8 +69,8 @@ def _keeps_hold(done: Sequence[ExecutedStep], index: int, grasping: bool | None)
 
 
 def touch_entry(done: Sequence[ExecutedStep], *, grasping: bool) -> int | None:
-    """Return the index of the step before a touch of the empty hand, if the last step moved the hand off the
-    touched object. Returns -1 if the touch was the first step, and None if the last step did not follow a touch.
+    """If the last step moved the empty hand away from an object that it had touched, return the index of the step
+    before this touch. Returns -1 if the touch was the first step, and None if the last step did not follow a touch.
 
     `grasping` is True if the fingers have closed, and have not opened after that.
     """

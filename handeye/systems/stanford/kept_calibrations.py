@@ -109,8 +109,8 @@ class KeptCalibrations:
         return len(files)
 
     def _trim(self) -> None:
-        """Remove the oldest files until the others together are within the limit. Also remove unfinished files whose
-        writer has ended.
+        """Remove the oldest files until all remaining files together are within the limit. Also remove unfinished
+        files whose writer has ended.
         """
         together = 0
         for path in self.files():
