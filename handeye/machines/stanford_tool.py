@@ -1,4 +1,4 @@
-"""The limits within which the Stanford arm handles parts if programs command it by tool axes."""
+"""The limits within which the Stanford arm handles parts while a program commands its tool axes."""
 
 from typing import Final
 

@@ -1,4 +1,4 @@
-"""Records in each cycle of a running machine which words of its tables have changed."""
+"""Records the words that change in the tables of a running machine, cycle by cycle."""
 
 import zlib
 from abc import ABC, abstractmethod

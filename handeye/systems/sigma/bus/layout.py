@@ -37,8 +37,8 @@ class Layout(Record, frozen=True, kw_only=True):
 
     @property
     def reflexes(self) -> dict[tuple[int, int], int]:
-        """For each component of each force microcomputer, the motor that this component can interrupt. The three
-        motors of a force microcomputer have the three numbers before its own number.
+        """For each component of each force microcomputer, the motor that this component can interrupt. If a force
+        microcomputer has the number n, its three motors have the numbers n - 3 to n - 1.
         """
         motors = {place.number for place in self.places if place.kind == "motor"}
         wired = {
