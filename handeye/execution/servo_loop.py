@@ -434,7 +434,8 @@ class ServoLoop(Servo):
     def _lagging(self, swing: Array) -> tuple[int, float]:
         """Find the joint whose following error is largest relative to its limit. Returns the joint and this ratio.
 
-        `swing`, shape (2, n), records, for each joint, the largest ratio on either side of the set-point.
+        `swing`, shape (2, n), is updated in place. It holds, for each joint and for each side of the set-point, the
+        largest ratio during the motion.
         """
         off = (self.state.here - self.state.q) / constants(self.arm).lag
         np.maximum(swing, off * _SIDES, out=swing)

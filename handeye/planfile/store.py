@@ -152,7 +152,7 @@ def is_plan_of(begun: RunStarted, data: bytes) -> bool:
 
 
 def _digest_of_plan(data: bytes) -> str | None:
-    """Return the `plan_digest` of the plan in `data`, or None if `data` is no plan of motions."""
+    """Return the `plan_digest` of the plan in `data`, or None if `data` is not a plan of motions."""
     try:
         return plan_digest(decode(data, "it"))
     except BadFile:
