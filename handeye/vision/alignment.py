@@ -37,8 +37,8 @@ def aligned(picture: Picture, to: Picture) -> Levels:
 
 
 def shift(first: Picture, second: Picture, where: Points | None = None) -> Array:
-    """Measure how far the second of two pictures with the same view is shifted relative to the first: (columns,
-    rows), shape (2,).
+    """Measure the shift of the second picture relative to the first: (columns, rows), shape (2,). Both pictures have
+    the same view.
 
     The function first finds the shift, in whole points, at which most points agree. It then computes the remaining
     fraction of a point from the gradients of intensity where the pictures agree. A point of the first picture counts

@@ -268,8 +268,8 @@ class HoldOff(CauseRecord, frozen=True, kw_only=True):
 
 
 class MetEarly(CauseRecord, frozen=True, kw_only=True):
-    """While the fingers closed to reverse a step, they touched at a gap (m) wider than `kept` (m), the gap when the
-    step was executed.
+    """While the fingers closed to reverse a step, they touched too early. `kept` (m) is the gap when the step was
+    executed; the fingers touched at a wider gap (m).
     """
 
     fingers: tuple[bool, bool]
