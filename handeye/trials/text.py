@@ -95,8 +95,9 @@ def sure(wilson95: tuple[float, float] | None, p_s: float | None) -> tuple[str, 
 
 
 def failures(found: Figures) -> Iterator[str]:
-    """Yield a line for each failure with the command that repeats it, then a line for each cause with its
-    count."""
+    """Describe each failure in a line, followed by the command that repeats the trial. Then yield a line for each
+    cause, with the number of its failures.
+    """
     for failure in found.failures:
         place = _place(failure.stage, failure.line)
         condition = f", {failure.condition}" if failure.condition else ""

@@ -135,8 +135,8 @@ def loosening_torque(measured: SettledState, hole: int) -> float:
 
 
 def screw_deviation(measured: SettledState, screw: int, hole: int) -> float:
-    """Return the greatest deviation of a screw from the design in length or radius (m), both as a loose body
-    and as a carrier in its thread.
+    """Return by how much (m) a length or radius of a screw differs most from the design. The loose screw and the
+    carrier that replaces it in its thread are both measured.
     """
     model, size = measured.model, dimensions()
     length, tip, head = size("screw.length"), size("screw.point_length"), size("screw.head_height")
