@@ -182,8 +182,8 @@ class JointAgreement:
         """Compare the readings of the next servo period. Returns the joint whose sensors disagree most, or None if
         all agree.
 
-        `unseen`, shape (n,), is how far the joints may have moved in this period in addition to what their rates show,
-        because an object shifted in the fingers (see `thrown`).
+        When an object shifts in the fingers, the joints may move farther than their rates show (see `thrown`).
+        `unseen`, shape (n,), is this additional motion in the period.
 
         While the rate changes evenly, the mean of two successive rates is the mean rate of the period between them.
         While the rate changes unevenly, for example when a casting breaks loose and strikes the joint, the motion in

@@ -75,8 +75,8 @@ class Bench(Clock, Mechanism[BenchTime]):
         self._parts.append(part)
 
     def cell(self, *others: Mechanism[Any]) -> SnapshotCell:
-        """Make a cell of this bench and of the mechanisms `others`, which do not act as time passes. The scene must not
-        change after this call.
+        """Make a cell from this bench and the mechanisms `others`. The mechanisms do nothing as time passes. The scene
+        must not change after this call.
         """
         noise = np.random.Generator(np.random.PCG64(0))
         return SnapshotCell(self.model, self.data, (self, *self._parts, *others), noise)

@@ -108,7 +108,7 @@ class Executor:
         self._leave()
 
     def answer(self, choice: Choice) -> None:
-        """Continue as the operator has chosen, after a call or after a reversal. If a reversal has stopped with an
+        """Carry out what the operator chose after a call or after a reversal. If a reversal has stopped with an
         error, `proceed` continues this reversal, and any other choice ends it.
         """
         run, stage = self.run, self.state.stage

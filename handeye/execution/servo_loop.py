@@ -443,7 +443,7 @@ class ServoLoop(Servo):
         return joint, abs(float(off[joint]))
 
     def _dragging(self, taken: Sequence[Exertion], lagging: str = "") -> Outcome | None:
-        """Check that in a motion through free air no joint took far more torque than its friction explains. Without
+        """Check a motion through free air: no joint may have taken far more torque than its friction explains. Without
         known friction, nothing is checked.
 
         If a joint lagged behind, no other joint is blamed.

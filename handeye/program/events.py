@@ -317,8 +317,8 @@ class PeriodsCommanded(Event, frozen=True, kw_only=True):
 
 
 class LineTyped(Event, frozen=True, kw_only=True):
-    """A person typed a line at the console of a system. The line is for one of the system's tasks. From then on, the
-    program alone no longer determines the run.
+    """A person typed a line at the console of a system, for one of its tasks. From then on, the program alone no
+    longer determines the run.
     """
 
     text: str

@@ -134,9 +134,9 @@ def converse(
     """Execute lines until the last one, or until the listener accepts no more. If `strict` is True, stop at the first
     line that fails.
 
-    Returns the answer to a line that was refused or whose execution stopped, or None if there was no such line.
-    `write` gets each answer, without a final newline: as lines of text, or as one object on one line if `json` is
-    True.
+    If a line was refused, or its execution stopped, returns the answer to this line. If all lines succeeded, returns
+    None. `write` gets each answer, without a final newline: as lines of text, or as one object on one line if `json`
+    is True.
     """
     failed = None
     while not listener.over:

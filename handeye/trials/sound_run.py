@@ -38,8 +38,8 @@ class SoundRun:
     stages: tuple[int, ...]  # Stage, numbered from 1, in which each of these lies
 
     def at(self, position: int) -> Checkpoint:
-        """Return the last stored state with at most `position` steps done. Raises InvalidInput if there is no such
-        state.
+        """Return the last stored state before which the run did at most `position` steps. Raises InvalidInput if there
+        is no such state.
         """
         found = self.store.at_or_before(position)
         if found is None or found.snapshot is None:

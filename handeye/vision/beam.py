@@ -151,8 +151,8 @@ def _account(
 
 
 def _vertex(y: Array, i: NDArray[np.intp]) -> Array:
-    """Return the positions of the vertices of parabolas through three values about index `i` in each line, from -.5
-    to .5, shape (n,).
+    """Return the position of a vertex for each line, relative to index `i`, shape (n,). The vertex is that of the
+    parabola through the three values about index `i`. Positions are limited to the range from -.5 to .5.
     """
     n, last = np.arange(len(y)), y.shape[1] - 1
     left, top, right = y[n, np.maximum(i - 1, 0)], y[n, i], y[n, np.minimum(i + 1, last)]

@@ -40,7 +40,7 @@ class Surface:
 
 
 def surface(model: Any, shape: int) -> Surface | None:
-    """Return the surface of a shape of a scene in the frame of its body, or None if the shape has no surface."""
+    """Return the surface of a shape, in the frame of the shape's body. Returns None if the shape has no surface."""
     kind, size = model.geom_type[shape], model.geom_size[shape]
     if kind == BOX:
         local = _scaled(_box(), size)

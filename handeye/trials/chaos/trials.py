@@ -100,7 +100,7 @@ def _plain(snapshot: Snapshot) -> bytes:
 
 
 class EndOfStage(StopCondition, frozen=True, kw_only=True):
-    """Pause between two stages, once more than `after` steps are done."""
+    """Pause at the first end of a stage at which the run has done more than `after` steps."""
 
     after: int
 

@@ -74,5 +74,5 @@ def digital(word: int, mask: int) -> SensorLine:
 
 
 def count(word: int, mask: int) -> SensorLine:
-    """Return the line of a sensor that counts the inputs that are on."""
+    """Return the table line of a sensor. The sensor's reading is the number of inputs that are on."""
     return SensorLine(kind=COUNT, input=word, mask=mask, open=BOTH_OPEN)

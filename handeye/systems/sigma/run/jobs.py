@@ -29,8 +29,8 @@ def job_plan(job: JobName, pieces: int) -> MalPlan:
 
 
 def program_plan(task: str, name: str, text: str, variant: str = "") -> MalPlan:
-    """Return the plan with which a user's program does a job. The variant is the number of pieces; by default, it is
-    the job's usual number. Raises BadFile if the program has errors.
+    """Return the plan for a job that is done by a user's program. The variant is the number of pieces; by default, it
+    is the job's usual number. Raises BadFile if the program has errors.
     """
     job = next(job for job in PROGRAMS if job == task)
     pieces = int(variant) if variant else job_task(job).usual

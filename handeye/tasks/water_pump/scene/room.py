@@ -23,7 +23,7 @@ Point3 = tuple[float, float, float]
 
 
 def add_room(shaper: Shaper, world: PumpWorld) -> None:
-    """Add everything fixed in the scene except the fixtures."""
+    """Add the room to the scene: all that is fixed in place, except the fixtures."""
     _add_table(shaper, world)
     _add_belt(shaper, world)
     _add_building(shaper, world.screws)
