@@ -61,7 +61,9 @@ def separated(tokens: Sequence[Token]) -> Sequence[Token]:
 
 
 def _meant(tokens: Sequence[Token]) -> Mistake | None:
-    """Return the mistake if brackets, units or commas in these operands show what is wrong, or else None."""
+    """Return the mistake that brackets, units or commas in these operands reveal. Returns None if they reveal no
+    mistake.
+    """
     opened = False
     for token in tokens:
         if token.text == "]" and not opened:

@@ -124,7 +124,7 @@ class FaultKind:
         return fault
 
     def check(self, fault: Fault) -> None:
-        """Raise BadArgument unless the size of a fault and its beginning are possible."""
+        """Raise BadArgument if the size of a fault or its beginning is impossible."""
         if (fault.stage is not None or fault.after is not None) and self.from_start:
             raise BadArgument(
                 f"the fault {quoted(self.name)} cannot begin during a run, only before it; leave out `{_begun(fault)}`"

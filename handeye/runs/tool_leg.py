@@ -1,4 +1,4 @@
-"""What some legs have in common: the legs that command the arm by tool axes (`handeye/execution/tool_axes.py`)."""
+"""The common part of all legs that command the arm by tool axes (`handeye/execution/tool_axes.py`)."""
 
 from collections.abc import Sequence
 from typing import Any, Final

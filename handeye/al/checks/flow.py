@@ -137,7 +137,9 @@ class _Flow:
                 yield diagnostic
 
     def unreachable(self) -> Iterator[Diagnostic]:
-        """Report the first statement of each unreachable part, unless the part only follows an endless loop."""
+        """Report the first statement of each unreachable part. A part directly after an endless loop is left out,
+        because the loop is reported instead.
+        """
         if len(self.reached) == len(self.graph.steps):
             return
         reached = {self.span(number) for number in self.reached}

@@ -114,8 +114,8 @@ class Campaign:
         self, places: Sequence[tuple[str, int]], points: Sequence[Point], *, kept: bool = True
     ) -> tuple[RareRow, ...]:
         """Run the worlds of the given points. `places` gives the condition of each point, and its number within this
-        condition. If `kept` is True, worlds in which the program fails are kept. Raises InvalidInput if a run ended
-        because this computer failed; the margin of such a run is unknown.
+        condition. If `kept` is True, the worlds in which the program fails are written to files. Raises InvalidInput
+        if a run ended because this computer failed; the margin of such a run is unknown.
         """
         cases = [
             RareCase(

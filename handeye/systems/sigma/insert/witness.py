@@ -28,7 +28,9 @@ class WatchedInsertion(HeardTouches, frozen=True, kw_only=True):
 
     @property
     def counted(self) -> int | None:
-        """The number of inserted pegs that the program printed last; None if the program printed no number."""
+        """The program's own count of inserted pegs: the last number that the program printed. None if the program
+        printed no number.
+        """
         told = [int(said[1]) for line in self.lines if (said := _TOLD.search(line)) is not None]
         return told[-1] if told else None
 
