@@ -55,8 +55,8 @@ ALONE: Final = 0.9  # share of the squares of all unexplained torques that one j
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Stiffness:
-    """A joint that is too stiff. `torque` is the part of its torque during a motion that the model does not explain (N
-    m; N if the joint is prismatic).
+    """A joint that is too stiff. `torque` (N m; N if the joint is prismatic) is the mean torque that moved this joint,
+    less the torque of the model.
     """
 
     joint: int
