@@ -77,7 +77,7 @@ def newest_run() -> Path | None:
 
 
 def newest_runs(number: int) -> list[Path]:
-    """Return the newest runs in the folder for runs, the newest first, whether the user named them or not.
+    """Return the newest runs in the folder for runs, named and unnamed. The newest run comes first.
     Raises BadFile if there are fewer than `number` runs.
     """
     home = runs_folder()

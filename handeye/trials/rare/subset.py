@@ -115,7 +115,9 @@ def estimate(levels: Sequence[Level]) -> Estimate:
 
 
 class _Walk:
-    """Markov chains that leave the distribution of the worlds below a threshold unchanged."""
+    """Markov chains over the worlds whose margins are below a threshold. The chains do not change the distribution of
+    these worlds.
+    """
 
     def __init__(
         self, seeds: Sequence[_State], last: Level, margins: Margins, rng: np.random.Generator
