@@ -1,7 +1,7 @@
 """A checked program: labelled operations with symbolic goals, in SI units, independent of language and arm.
 
-Every arm language compiles to a program, and the planner starts from it. The plan consists of the same operations,
-together with planned motions.
+Every arm language compiles to a program. The program is the input of the planner. The plan consists of the same
+operations, together with planned motions.
 """
 
 from collections.abc import Collection, Mapping

@@ -126,8 +126,8 @@ class GrowingFile:
         self.file = file
 
     def _end_chunk(self) -> None:
-        """Write the chunk in progress. If parts of the chunk were written earlier, they stay until the whole chunk is
-        on the disk.
+        """Write the chunk in progress. If parts of the chunk were written earlier, these parts stay in the file until
+        the whole chunk is on the disk.
         """
         whole, chunk, self._pending = self._encoder.size, self._encoder.chunk(), 0
         if not self._partly:

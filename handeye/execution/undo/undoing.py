@@ -80,8 +80,8 @@ def end(state: ExecutionState) -> None:
 
 
 def undo_last(run: ExecutionContext) -> UndoFailure | None:
-    """Reverse the last executed step, or all the steps that one lift reverses, and remove them from the list of
-    executed steps.
+    """Reverse the last executed step. If one lift of the hand reverses several of the last steps, reverse all of these
+    steps. Remove the reversed steps from the list of executed steps.
 
     Returns None, or the reason why the reversal stopped. If the reversal stopped, the last step is only partly
     reversed.

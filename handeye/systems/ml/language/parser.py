@@ -81,7 +81,9 @@ def parsed_line(text: str, start: int = 0, row: int = 1) -> tuple[Line | None, D
 
 
 def statement_of(text: str) -> Line | None:
-    """Parse a typed line. Returns None for a remark. Raises MlError or BadArgument, whose text includes the cure."""
+    """Parse a typed line. Returns None for a remark. Raises MlError or BadArgument if the line is wrong. The text of
+    the error says how to correct the line.
+    """
     line, wrong = parsed_line(text)
     if wrong is None:
         return line
