@@ -144,7 +144,7 @@ class Undo(Operation, frozen=True, kw_only=True):
 
 
 class Load(Operation, frozen=True, kw_only=True):
-    """Declare the weight (N) of the object in the hand. The servo then compensates the weight."""
+    """Declare the weight (N) in the hand. The servo then compensates the weight."""
 
     bounds: ClassVar = {"weight": (-1e3, 1e3)}
 
