@@ -79,15 +79,15 @@ class MalLanguage(OwnLanguage):
         return [*((name, "a variable") for name in names), *rest, *axes]
 
     def formatted(self, text: str) -> str:
-        """Return the lines in the order of their numbers, in capitals, with one blank between words. Texts in
-        quotes and remarks are unchanged.
+        """Return the lines in the order of their numbers, in capitals, with one blank between words. Remarks
+        are unchanged, and so are texts in quotes.
         """
         lines, _ = parsed(Source(name="text", text=text))
         return "".join(f"{line.number} {tidy(line.text)}\n" for line in in_order(lines))
 
 
 def tidy(text: str) -> str:
-    """Return a statement in capitals. Texts in quotes and remarks are unchanged."""
+    """Return a statement in capitals. Remarks are unchanged, and so are texts in quotes."""
     if text.upper().startswith("REM"):
         return f"REM{text[3:]}"
     return "".join(part if part.startswith('"') else part.upper() for part in re.split(r'("[^"]*")', text))
