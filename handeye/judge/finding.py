@@ -30,7 +30,7 @@ class Finding:
         return not self.ok and not self.caution
 
     def limited(self, limit: float) -> "Finding":
-        """Return a copy of the finding with `limit` instead of its own limit, in the unit of the finding. If the value
+        """Return a copy of the finding with another limit. `limit` is in the unit of the finding. If the value
         is beyond `limit`, the referee rejects the work.
         """
         ok = self.value <= limit if self.relation == "at most" else self.value >= limit

@@ -2,9 +2,9 @@
 
 The box of general location is white. Each hole has a red cross and a yellow box, and a red line joins the centres of
 the two holes. The line of the first grasp is blue. Picture 10 of the paper shows the line between the holes and the
-line of the grasp. The expected centres of a gasket's holes are red crosses. The centres found are discs, which are
-green if the gasket is in place, and red if not. If a part is checked again, its outline is green if the part stands as
-before, and red if not.
+line of the grasp. Red crosses mark the expected centres of a gasket's holes. Discs mark the centres that were found:
+green discs if the gasket is in place, and red discs if not. If a part is checked again, its outline is green if the
+part stands as before, and red if not.
 """
 
 from dataclasses import dataclass

@@ -226,8 +226,8 @@ def part_of(test: SelfTest) -> str:
 
 
 def wrong_force(found: means.Forces) -> tuple[str, str]:
-    """Return the part of a wrist that reads known loads wrongly, and the reason. Both texts are empty if no part reads
-    wrongly.
+    """Find the part of a wrist that gives wrong readings for known loads. Returns this part, and the reason. Both
+    texts are empty if no part reads wrongly.
     """
     arm, errors = found.arm, [*_errors(found)]
     if any(value is None for _, _, read in found.readings for value in read):

@@ -192,8 +192,8 @@ def _turning(settled: SettledState) -> Finding:
 
 
 def judge_pins(truth: Truth) -> Findings:
-    """Judge whether each aligning pin stands in a hole of the base that is meant for a pin: as the arm left the pins,
-    and again after they have settled. The worse finding counts.
+    """Judge whether each aligning pin stands in a hole of the base that is meant for a pin. Each pin is judged twice:
+    as the arm left it, and after it has settled. The worse finding counts.
     """
     left, settled = _as_left_and_settled(truth)
     return worse(_pinned(left), _pinned(settled))
