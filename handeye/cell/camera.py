@@ -170,7 +170,7 @@ class SimulatedCamera(Mechanism[CameraState], TvCamera):
 
     def shown(self, points_W: Array) -> Array:
         """Return the true picture points, shape (n, 2), of points in W (in m, shape (n, 3)), without the drift of the
-        tube. For the referee and for tests.
+        tube. Only trials and tests use this method.
         """
         return self._raster.shown(self.true_view().project(points_W))
 

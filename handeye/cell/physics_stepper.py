@@ -26,11 +26,11 @@ presses askew into a corner of a hole, and overloaded friction lifts it off for 
 drives the free finger .1 mm into the corner, where it overlaps several faces at once. The simulator then pushes the
 finger out with thousands of newtons, and so throws the part about in the hand. In fine steps, the finger only slides.
 
-Euler's method moves the joints, and with them the hand, along an arc, but a free body along the tangent. For a free
-body, Euler's method thus leaves out the second-order term of the motion: half the acceleration times the square of the
-step. After long steps this term is therefore added to carried bodies; it is a few micrometres in a servo period. The
-term does not stop a part that slips in the fingers, because only friction holds the part. Short steps leave the term
-out. A held part therefore creeps less in long steps than in short steps.
+Euler's method moves the joints, and with them the hand, along an arc. It moves a free body along the tangent. For a
+free body, Euler's method thus leaves out the second-order term of the motion: half the acceleration times the square
+of the step. After long steps this term is therefore added to carried bodies; it is a few micrometres in a servo
+period. The term does not stop a part that slips in the fingers, because only friction holds the part. Short steps
+leave the term out. A held part therefore creeps less in long steps than in short steps.
 
 MuJoCo puts a tree of bodies to sleep when the tree, and everything it touches, has hardly moved for ten steps. MuJoCo
 wakes a sleeping tree when an awake body touches the tree, but not when a motor receives a new command. Code that

@@ -108,7 +108,9 @@ class Evidence(Record, frozen=True, kw_only=True, tag=True):
         raise NotImplementedError
 
     def failed(self, passed: Passed) -> Answer:
-        """Say whether an executed step is of this kind, but had an outcome that disproves what the kind shows."""
+        """Say whether an executed step disproves what this kind of evidence shows. Such a step is of this kind, but
+        had another outcome.
+        """
         if passed.outcome in (None, SUCCESS):
             return "no"
         return self.shown(passed._replace(outcome=SUCCESS))

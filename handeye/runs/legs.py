@@ -135,7 +135,7 @@ class LegSystem(ABC):
 
     @abstractmethod
     def build(self, setup: Setup, around: RunCallbacks, cell: "SimulatedCell") -> RunningLeg:
-        """Build the running system of a program on a cell that other programs use, too."""
+        """Build the running system that executes a program. Other programs use the same cell, too."""
 
 
 def leg_system(name: str) -> LegSystem:

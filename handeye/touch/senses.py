@@ -109,8 +109,8 @@ def thick(gap: float, thickness: float) -> bool:
 
 def kept_apart(gap: float, goal: float) -> bool:
     """Return True if an object keeps the fingers apart while the motor drives them together. `gap` is the gap of the
-    fingers, and `goal` the gap to which the motor drives them (both in m). The grip may be too light to close a
-    switch.
+    fingers, and `goal` the gap to which the motor drives them (both in m). This is True even if the grip is too light
+    to close a switch.
     """
     return gap > EMPTY_GAP and gap - goal > GAP_ERROR
 

@@ -126,7 +126,7 @@ def _with_one_cure(found: Sequence[Diagnostic]) -> list[Diagnostic]:
 
 
 def _words(lines: Sequence[Line]) -> Iterator[Diagnostic]:
-    """Yield the lines that have a statement for which there is no operation, or a value that is not a number."""
+    """Report each statement for which there is no operation, and each value that is not a number."""
     for line in lines:
         statement = line.statement
         word = statement.word
@@ -188,7 +188,7 @@ def _arms_of(statement: Statement) -> set[int]:
 
 
 def _force_tests(lines: Sequence[Line]) -> tuple[dict[int, ForceTest], list[Diagnostic]]:
-    """Return, for the line of each motion, the force test that directly follows it. Also return the refused IFs."""
+    """Return the force tests that directly follow a motion, by the line of this motion. Also return the refused IFs."""
     targets = {int(each.target.text) for line in lines for each in _branches(line.statement) if each.target}
     tests, wrong = dict[int, ForceTest](), list[Diagnostic]()
     following = [*(line.number for line in lines[1:]), END]

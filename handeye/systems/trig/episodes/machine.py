@@ -1,4 +1,4 @@
-"""The Purbrick arm in an episode: an action moves the set-points of its axes and its hand, every 10 ms."""
+"""The Purbrick arm in an episode. Every 10 ms, an action moves the set-points of the arm's axes and hand."""
 
 from collections.abc import Mapping
 from copy import deepcopy

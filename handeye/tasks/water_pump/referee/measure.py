@@ -54,8 +54,8 @@ def head_gap(measured: SettledState, hole: int) -> float:
 
 
 def misfit(measured: SettledState, layer: str, hole: int) -> float:
-    """Return the distance between the axes of a screw and of its hole in the gasket or the top (m), at the end of the
-    hole where this distance is greater.
+    """Return the distance (m) of a screw's axis from the axis of its hole in the gasket or the top. The distance is
+    measured at both ends of the hole, and the greater value is returned.
     """
     axis, mouth = measured.data.site(f"thread{hole}"), measured.data.site(f"{layer}_hole{hole}").xpos
     down = -thickness(layer) * measured.pose(layer)[:3, 2]
