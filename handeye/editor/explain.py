@@ -56,7 +56,7 @@ def explanation(word: str) -> str:
 
 
 def listing() -> str:
-    """Return three lists: the codes of errors, the codes of warnings, and the error numbers, each with its meaning."""
+    """Return three lists with meanings: the codes of errors, the codes of warnings, and the error numbers."""
     width = max(map(len, CODES))
     out = []
     for severity in ("error", "warning"):

@@ -113,8 +113,9 @@ class CheckpointStore:
         return found, faults
 
     def at_or_before(self, position: int) -> Checkpoint | None:
-        """Return the newest checkpoint with at most `position` steps done, or None. The checkpoint made before
-        the run began does not count."""
+        """Return the newest checkpoint that was made after at most `position` steps, or None if there is none. The
+        checkpoint made before the run began does not count.
+        """
         for path, head in self.heads():
             if head.position >= 0 and 0 <= _position(path) <= position:
                 return read_checkpoint(path)

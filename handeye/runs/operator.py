@@ -159,8 +159,8 @@ def attend(
     """Continue the run. At each call, follow the operator's answer. Return when the run pauses without a call, or when
     the operator aborts the run.
 
-    The function `kept` is needed when the run goes back. Called with a number of steps, it returns the newest
-    checkpoint on disk at which at most this number of steps was done.
+    The function `kept` is needed when the run goes back. Its argument is a number of steps. It returns the newest
+    checkpoint on disk that was made after at most this number of steps.
     """
     refused: str | None = None
     while True:

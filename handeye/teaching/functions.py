@@ -1,4 +1,4 @@
-"""Plans typed instructions, beginning at the arm's present configuration."""
+"""Plans the instructions that a person types. The plan begins at the arm's present configuration."""
 
 from collections.abc import Collection, Sequence
 from dataclasses import replace

@@ -1,5 +1,5 @@
-"""Events of a relay: a leg takes over the arm, or leaves it. The events of the legs themselves are those of
-their systems.
+"""Events of a relay: a leg takes over the arm, or leaves it. During a leg, the system of the leg reports its own
+events.
 """
 
 from collections.abc import Mapping

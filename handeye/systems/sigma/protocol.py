@@ -198,7 +198,7 @@ def self_test(name: str | int) -> Command:
 
 
 def echo(name: str | int, pattern: bytes) -> Command:
-    """Make the question that lets a microcomputer send three bytes back."""
+    """Make the question that asks a microcomputer to send the three bytes `pattern` back."""
     return Command.of(bytes((number_of(name), Op.ECHO, *pattern)))
 
 

@@ -215,7 +215,7 @@ def _speed(measured: SettledState, bodies: NDArray[np.intp], kind: str) -> Findi
 def _greatest(
     measured: SettledState, values: NDArray[np.float64], limit: float, unit: str, subject: str
 ) -> Finding:
-    """Judge the greatest value among all bodies. The finding names the body if its value exceeds the limit."""
+    """Judge the greatest value among all bodies. If this value exceeds the limit, the finding names the body."""
     body = int(np.argmax(values))
     name = measured.model.body(body).name.removeprefix(ARM)
     return at_most(values[body], limit, unit, subject if values[body] <= limit else f"{subject}: {name}")
