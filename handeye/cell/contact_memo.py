@@ -12,7 +12,9 @@ _KEPT: Final = 1000  # sets of contacts that are remembered
 
 
 class ContactMemo(Generic[T]):
-    """The results of a function of the contacts of a scene. The function is called once for each set of contacts."""
+    """Stores the results of a function whose argument is a set of contacts. The function is called once for each set
+    of contacts.
+    """
 
     def __init__(self, data: mujoco.MjData, judge: Callable[[NDArray[np.int32]], T]) -> None:
         """`judge` is given the numbers of the geoms that touch, shape (n, 2). Apart from these numbers, the result of

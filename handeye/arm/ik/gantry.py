@@ -1,9 +1,9 @@
 """Inverse kinematics of a gantry: three sliding axes carry a wrist with three revolute joints, each perpendicular
 to the next.
 
-The slides do not turn the hand. The wrist joints therefore follow from the orientation of the hand alone, and the
-slides from the remaining position; the wrist axes need not meet in a point. If a gantry has more than three slides,
-the others are rails, which are held at a fixed position.
+The slides do not turn the hand. The orientation of the hand alone therefore determines the wrist joints. The remaining
+position determines the slides. The wrist axes need not meet in a point. If a gantry has more than three slides, the
+others are rails, which are held at a fixed position.
 
 There are two branches: with and without a flipped wrist. Where the first and last wrist axes are in line, only the sum
 of the two joint angles matters. The first wrist joint then keeps its angle if the last wrist joint can reach the angle

@@ -1,4 +1,4 @@
-"""Decides whether a fault spoiled finished work only after the last look of the program at this work.
+"""Decides whether a fault spoiled finished work only after the program looked at this work for the last time.
 
 No program can notice such a fault. The proof of the program (`handeye.proof`) names the steps that look at the work:
 these steps show a claim on which a finding of the referee rests.
