@@ -68,8 +68,8 @@ def renamable(document: Document, offset: int) -> Occurrence:
 
 
 def rename(document: Document, offset: int, new: str) -> list[Edit]:
-    """Return the edits that give a new name to the name at an offset, in all files. Raises BadArgument if the new name
-    is invalid.
+    """Return the edits that replace the name at an offset by the name `new`, in all files. Raises BadArgument if the
+    new name is invalid.
     """
     name = renamable(document, offset)
     if _NAME.fullmatch(new) is None:

@@ -226,7 +226,7 @@ class Runner:
 
     @property
     def undone(self) -> bool:
-        """True if the run has ended because the arm has undone all steps that the order to undo named."""
+        """True if the run has ended because the arm has undone all the steps that it was asked to undo."""
         last = next((e for e in reversed(self.events) if isinstance(e, StepStarted | UndoEnded)), None)
         return self.at is None and isinstance(last, UndoEnded)
 

@@ -432,7 +432,7 @@ class System(ABC):
         return ()
 
     def order(self, plan: Any, state: Any, undoing: ReversalOrder) -> None:
-        """Change a state so that a run that continues from the state first undoes the executed steps. Raises
+        """Change a state so that a run that continues from the state first undoes executed steps. Raises
         InvalidInput if no executed step is left.
         """
         raise refusal(self.name, "undo")

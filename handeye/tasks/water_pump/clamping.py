@@ -153,5 +153,5 @@ class Clamping(Mechanism[ClampingState]):
 
 
 def lands_of(drawn: mujoco.MjModel) -> NDArray[np.intp]:
-    """Return the indices of the geoms of the lands of gasket and top, in a scene in which nothing is clamped."""
+    """Return the indices of the geoms that form the lands of gasket and top. Nothing may be clamped in the scene."""
     return np.flatnonzero(np.isin(drawn.geom_contype, _LANDS))
