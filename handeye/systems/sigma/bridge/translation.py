@@ -75,7 +75,9 @@ _CURE: Final = (
 
 
 class _Stop(NamedTuple):
-    """Where a step leads: either to a line, or `here` steps further on."""
+    """The successor of a step. If `here` is a number, the successor is that many steps further on. If not, it is at
+    the line `line`.
+    """
 
     line: int | None = None
     here: int | None = None

@@ -104,7 +104,7 @@ class FaultyGantries(Gantries):
         return [fault for (each, _), fault in self._faults.items() if each == kind]
 
     def _quiet(self, axis: int) -> None:
-        """Let the accelerometer of an axis give no signal."""
+        """Make the accelerometer of an axis give no signal."""
         for row in (axis, self._n + axis):
             self._felt[row, self._inertial] = self._still[row] = 0.0
 
