@@ -71,7 +71,9 @@ class LegState(TaughtState, kw_only=True):
 
 
 class PlatterAxes(Axes):
-    """The tool of the arm in the axes X, Y, Z, ROLL, PITCH and YAW of TRIG's platter, with the gap of the hand."""
+    """Moves the tool of the arm along the axes of TRIG's platter: X, Y, Z, ROLL, PITCH and YAW. The gap of the hand is
+    another axis.
+    """
 
     def __init__(self, tool: ToolAxes) -> None:
         self._tool = tool

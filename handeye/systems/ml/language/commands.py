@@ -37,7 +37,7 @@ class Command(Record, frozen=True, kw_only=True):
 
     @property
     def counts(self) -> frozenset[int]:
-        """How many parameters the command may have: all allowed numbers."""
+        """The allowed numbers of parameters of the command."""
         return _counts(self.usage)
 
     def kind(self, number: int) -> Kind:
