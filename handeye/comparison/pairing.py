@@ -19,7 +19,7 @@ from handeye.trace.stages import DoneStep, done_steps
 
 
 class Place(Record, frozen=True, kw_only=True):
-    """A step of a run, with its stage, its line and the time when it began."""
+    """A step at the time when it was executed."""
 
     stage: str
     step: int

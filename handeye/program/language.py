@@ -32,8 +32,8 @@ class Language(Record, frozen=True, kw_only=True):
 
 
 class OwnLanguage(ABC):
-    """A system's own language for its files. The language checks a text, and answers questions of commands and editors
-    about the text.
+    """A system's own language for its files. The language checks a text, and answers the questions that commands and
+    editors ask about the text.
     """
 
     system: str
