@@ -125,8 +125,8 @@ def jacobian(arm: ArmModel, q: Array) -> Array:
 
 
 def drift(arm: ArmModel, R: Array, p: Array, qd: Array) -> Array:
-    """Return the acceleration of T at joint rates `qd` and zero joint accelerations (dJ/dt qd), shape (..., 6), in the
-    configuration with the frames `R`, `p`.
+    """Return the acceleration dJ/dt qd of T, shape (..., 6), in the configuration with the frames `R`, `p`. The joint
+    rates are `qd`; the joint accelerations are zero.
     """
     tool, last = p[..., -1:, :], np.full(1, len(arm.joints) - 1)
     linear, _ = point_jacobian(arm, R, p, tool)

@@ -124,7 +124,7 @@ def _first_of_lift(run: ExecutionContext) -> int:
 
 
 def _forget(run: ExecutionContext, first: int, remembered: Sequence[Memory]) -> list[ExecutedStep]:
-    """Restore the memory from before the step at index `first`. Removes this step and all later steps from the
+    """Restore the memory to its state before the step at index `first`. Removes this step and all later steps from the
     executed steps, and returns them.
 
     `remembered` holds, for each of these steps, the old values of the variables that the step changed.

@@ -47,7 +47,7 @@ class _Mistaken(Exception):
 
 
 def decks(files: Sequence[Path]) -> Source:
-    """Read the texts of a symbolic program, in their order. Raises BadFile if a text is unreadable."""
+    """Read the texts of a symbolic program, in the order of `files`. Raises BadFile if a text is unreadable."""
     first, *others = files
     after = (replace(read_source(file), key=f"{n} {file}") for n, file in enumerate(others))
     return replace(read_source(first), required=tuple(after))

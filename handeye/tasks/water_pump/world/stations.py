@@ -58,7 +58,8 @@ def stations() -> tuple[str, ...]:
 
 
 def planned_fixtures() -> dict[str, Fixture]:
-    """Return the stations that consist only of boxes, as obstacles for the planner, by their names in taught
-    files."""
+    """Return the obstacles for the planner: the stations that consist only of boxes. The keys are the names of the
+    stations in taught files.
+    """
     origin = (0.0, 0.0, 0.0, 0.0)
     return {name.upper(): Fixture(at=origin, boxes=boxes) for name, boxes in plain_stations().items()}
