@@ -73,9 +73,9 @@ class SnapshotCell:
         for byte.
 
         Sleep is not part of a state: when a state is restored, all bodies wake, and then the bodies at rest fall
-        asleep again. If an interrupted run is to equal an uninterrupted run, the cell must therefore restore its own
-        state at every point where the run might be interrupted. Raises InvalidInput if the state belongs to another
-        kind of cell or is not valid.
+        asleep again. An interrupted run must give the same results as an uninterrupted run. Therefore, the cell
+        restores its own state at every point where the run might be interrupted. Raises InvalidInput if the state
+        belongs to another kind of cell or is not valid.
         """
         try:
             self._check(state)
