@@ -53,9 +53,8 @@ class Forces(Brief):
         return self._rows(inside)
 
     def motions(self) -> "tuple[Forces, ...]":
-        """Split the forces into motions. Returns one `Forces` for each motion in which forces were estimated, in order
-        of time.
-        """
+        """Split the forces into motions. Each motion in which forces were estimated gets its own `Forces`, the
+        earliest first."""
         known = np.concatenate([[False], self.estimated, [False]])
         borders = np.flatnonzero(known[1:] != known[:-1])
         return tuple(
