@@ -65,7 +65,7 @@ def run_words(run: ComparedRun) -> str:
 
 
 def moment_words(first: First) -> str:
-    """Name the step and the servo period of a difference in words."""
+    """Say in words in which step and in which servo period a difference lies."""
     period = "" if first.period is None else f", servo period {first.period}"
     return f"{place_words(first.place)}{period}"
 

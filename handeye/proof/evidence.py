@@ -274,8 +274,8 @@ class FreeTurn(Evidence, frozen=True, kw_only=True):
 
 
 class Taken(Evidence, frozen=True, kw_only=True):
-    """A picture of a comparison: the earlier or the later one. `picture` is the name of the picture; the prover fills
-    in this name.
+    """One of two pictures that are compared, the earlier or the later. `picture` is the name of the picture; the
+    prover fills in this name.
     """
 
     operations: ClassVar = (Look,)
