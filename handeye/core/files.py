@@ -178,7 +178,7 @@ def _check_file(place: Path, named: Path) -> None:
 
 
 def unguarded(path: Path, why: str) -> str:
-    """Return a warning that a file cannot be locked. `why` is the reason, which lies in the file system."""
+    """Return a warning that a file cannot be locked. `why` is the reason that the file system gives."""
     return f"{path} cannot be locked ({why}): make sure that no other command writes to it"
 
 

@@ -90,7 +90,7 @@ class MotorAborted(SystemEvent, frozen=True, kw_only=True):
 
 
 class CountDoubtful(SystemEvent, frozen=True, kw_only=True):
-    """A wrist sensed a force that may have turned a motor while the motor was at rest or slowed down, so the motor's
+    """A wrist sensed a force that may have turned a motor while the motor was at rest or stopping, so the motor's
     count may be wrong. If `above` is True, the wrist of the other arm sensed the force: the other arm may have hit
     this arm above the wrist.
     """
