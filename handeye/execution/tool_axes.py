@@ -77,8 +77,8 @@ class ToolAxes(Axes):
         return self._goal
 
     def resume(self, goal: Array) -> None:
-        """Continue from set-points that `goal` has returned. The drive must be in the state that it had when `goal`
-        returned these set-points.
+        """Continue from set-points that the method `goal()` returned earlier. The drive must be in the state that it
+        had when `goal` returned these set-points.
         """
         self._start = self._goal = goal
         self._motion = None

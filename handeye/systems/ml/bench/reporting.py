@@ -40,7 +40,7 @@ def counted(heard: object) -> int:
 
 
 def calls_of(troubles: Mapping[str, str]) -> tuple[str, ...]:
-    """For each trouble, return the program's message in the form that declarations of faults quote: the sentence for
+    """For each trouble, return the program's message as it is quoted in declarations of faults: the sentence for
     the trouble, followed by `({count})`.
     """
     return tuple(f"{sentence} ({{count}})" for sentence in troubles.values())

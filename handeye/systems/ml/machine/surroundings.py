@@ -1,4 +1,6 @@
-"""What the sensors of perfect motors sense: stimuli that are given in advance, and outlines that the wand touches."""
+"""What the sensors sense if the motors are simulated as perfect: stimuli that are given in advance, and outlines that
+the wand touches.
+"""
 
 from collections.abc import Mapping, Sequence
 from typing import Annotated, Final, Literal
