@@ -54,7 +54,7 @@ def _aligned_texts(before: Sequence[str], after: Sequence[str]) -> Sequence[Pair
 
 
 def place_of(run: RecordedRun, started: StepStarted) -> Place:
-    """Return the place at which a step that was begun stands in the script."""
+    """Return the place in the script of a step that was begun."""
     program = listing_of(run)
     return Place(
         stage=program.stages[program.steps[started.step].stage],
