@@ -19,12 +19,11 @@ steps. The task names the *delicate* contacts, which need short steps, and the j
 steps. A screw, for example, is tightened in short steps, because in middle steps it would clamp with less force.
 
 If a part is crushed, for example between a fixture and a hand that runs into it, the computation may diverge in
-short steps. The interval of this step is then computed again in fine steps.
-
-The same is done if the force on a finger pad is greater than hand and arm can exert (`CRUSHING`). For example, a finger
-presses askew into a corner of a hole, and overloaded friction lifts it off for one short step. In this step, the motor
-drives the free finger .1 mm into the corner, where it overlaps several faces at once. The simulator then pushes the
-finger out with thousands of newtons, and so throws the part about in the hand. In fine steps, the finger only slides.
+short steps. The interval is then computed again in fine steps. So is an interval in which the force on a finger pad is
+greater than hand and arm can exert (`CRUSHING`). For example, a finger presses askew into a corner of a hole, and
+overloaded friction lifts it off for one short step. In this step, the motor drives the free finger .1 mm into the
+corner, where it overlaps several faces at once. The simulator then pushes the finger out with thousands of newtons,
+and so throws the part about in the hand. In fine steps, the finger only slides.
 
 Euler's method moves the joints, and with them the hand, along an arc. It moves a free body along the tangent. For a
 free body, Euler's method thus leaves out the second-order term of the motion: half the acceleration times the square
