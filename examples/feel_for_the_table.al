@@ -1,5 +1,5 @@
 ; The hand goes down to the table until it presses on it with 40 ounces.
-TRANS   ABOVE [25 38 .5 90 90 0]
+        TRANS   ABOVE [25 38 .5 90 90 0]
         STAGE   "feel for the table"
         OPEN    1
         MOVE    ABOVE

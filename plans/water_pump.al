@@ -840,7 +840,7 @@ HELD:   LOAD    84.6
         CENTER  .1
         SKIPN   2
         WAIT    "PIN 1 IS NOT IN ITS HOLDER: IT IS MISSING, OR THE HOLDER HAS MOVED, OR A JOINT READS WRONG"
-        TRAVEL  0 .35            ;as far as arm and holder are off together at twice their errors
+        TRAVEL  0 .35           ;as far as arm and holder are off together at twice their errors
         SKIPN   8
         WAIT    "THE HOLDER OF PIN 1 IS NOT WHERE IT SHOULD BE: IT HAS MOVED, OR A JOINT READS WRONG"
         SAVE    C1              ;where the holder really is

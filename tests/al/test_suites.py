@@ -153,3 +153,18 @@ def test_every_code_is_shown_with_an_example_that_gets_it() -> None:
     text = "\n".join(file.read_text(encoding="utf-8") for file in SUITES)
     assert set(re.findall(r"^(?:error|warning)\[([a-z-]+)\]: ", text, re.MULTILINE)) == set(CODES)
     assert len(CODES) >= LEAST
+
+
+ROOT = Path(__file__).parents[2]
+PROGRAMS = sorted(
+    file.relative_to(ROOT).as_posix()
+    for folder in ("plans", "examples", "benches", "tests/exercises/solutions")
+    for file in (ROOT / folder).rglob("*.al")
+    if not has_errors(parse(file.read_text(encoding="utf-8"))[1])
+)
+
+
+@pytest.mark.parametrize("name", PROGRAMS)
+def test_programs_for_users_are_laid_out_as_the_formatter_does(name: str) -> None:
+    text = (ROOT / name).read_text(encoding="utf-8")
+    assert al.format_text(text) == text
