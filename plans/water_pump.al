@@ -894,8 +894,8 @@ IN1:    OPEN    .5
         CHANGE  [0 0 1] 1.5     ;draw it out of its holder
         CLOSE   0.1             ;has it come along?
         MOVE    T2              ;GO TO THE HOLE
-        RESTORE E1 LEVEL        ;where the hand found the first hole;
-        RESTORE C2 LEVEL        ;but along x, the first pin was as far from the middle of the fingers as the arm missed the holder
+        RESTORE E1 LEVEL        ;as far off as the first hole; but that pin stood beside the middle of the fingers,
+        RESTORE C2 LEVEL        ;by as much as the arm missed the holder
         SEARCH  .07 STEPS 4
 L2:     SKIPN   6               ;all places tried
         JUMP    NONE2
@@ -928,7 +928,7 @@ NONE2:  MOVE    T2
         JUMP    IN2
 FULL2:  WAIT    "PIN 2 FINDS NO HOLE: ITS NOSE OR THE HOLE IS WRONG, OR THE BASE HAS MOVED, OR A JOINT READS WRONG"
 IN2:    OPEN    1.2
-        MOVE    Q2              ;SAVE measures from here
+        MOVE    Q2              ;unshifted along x, for SAVE measures from here
         RESTORE Y1
         CENTER  .1
         SAVE    X2              ;where its hole is, along the line of centres
