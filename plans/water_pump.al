@@ -399,7 +399,8 @@ LF:     SKIPN   6
         WAIT    "THE GASKET DOES NOT GO DOWN ON ITS PINS: IT IS HELD ASKEW, OR A JOINT READS WRONG"
         MOVE    GON
         RESTORE GRIP
-        RESTORE E2 LEVEL
+        RESTORE X2
+        RESTORE Y1
         STOP    [0 0 -24]
         CHANGE  [0 0 -1] 2.3
         SKIPN   23
@@ -843,8 +844,8 @@ HELD:   LOAD    84.6
         TRAVEL  0 .35           ;as far as arm and holder are off together at twice their errors
         SKIPN   8
         WAIT    "THE HOLDER OF PIN 1 IS NOT WHERE IT SHOULD BE: IT HAS MOVED, OR A JOINT READS WRONG"
-        SAVE    C1              ;where the holder really is
         CLOSE   0.1             ;grasp it
+        SAVE    C1              ;where the holder really is: a pin leans in it until the fingers grasp it
         CHANGE  [0 0 1] 1.5     ;draw it out of its holder
         CLOSE   0.1             ;has it come along?
         MOVE    T1              ;GO TO THE HOLE
@@ -881,21 +882,26 @@ IN1:    OPEN    .5
         SAVE    Y1              ;where its hole is, across the line of centres
         OPEN    1.3
         MOVE    P2
+        RESTORE C1 LEVEL        ;so that it stands in the middle of the fingers the other way, too
         CENTER  .1
         SKIPN   2
         WAIT    "PIN 2 IS NOT IN ITS HOLDER: IT IS MISSING, OR THE HOLDER HAS MOVED, OR A JOINT READS WRONG"
         TRAVEL  0 .35
         SKIPN   8
         WAIT    "THE HOLDER OF PIN 2 IS NOT WHERE IT SHOULD BE: IT HAS MOVED, OR A JOINT READS WRONG"
-        SAVE    C2              ;where the holder really is
         CLOSE   0.1             ;grasp it
+        SAVE    C2              ;where the holder really is
         CHANGE  [0 0 1] 1.5     ;draw it out of its holder
         CLOSE   0.1             ;has it come along?
         MOVE    T2              ;GO TO THE HOLE
+        RESTORE E1 LEVEL        ;as far off as the first hole; but that pin stood beside the middle of the fingers,
+        RESTORE C2 LEVEL        ;by as much as the arm missed the holder
         SEARCH  .07 STEPS 4
 L2:     SKIPN   6               ;all places tried
         JUMP    NONE2
         MOVE    T2              ;GO TO THE HOLE
+        RESTORE E1 LEVEL
+        RESTORE C2 LEVEL
         STOP    [0 0 -50]
         CHANGE  [0 0 -1] 0.6    ;TRY TO GO DOWN WITHOUT MEETING RESISTANCE
         SKIPE   23              ;no resistance: the pin is in a hole
@@ -904,7 +910,6 @@ L2:     SKIPN   6               ;all places tried
         CHANGE  [0 0 -1] 0.6    ;IT SHOULD MEET SOME RESISTANCE
         SKIPN   23
         AOJ     L2              ;none: that was no hole
-        SAVE    E2
         OPEN    .5
         CLOSE   0.1             ;AND CHECK THAT IT IS STILL THERE
         STOP    [-36 0 0]
@@ -913,6 +918,8 @@ L2:     SKIPN   6               ;all places tried
         AOJ     L2              ;it does: that was no screw hole
         JUMP    IN2
 NONE2:  MOVE    T2
+        RESTORE E1 LEVEL
+        RESTORE C2 LEVEL
         STOP    [0 0 -50]
         CHANGE  [0 0 -1] 1
         SKIPE   23
@@ -920,7 +927,9 @@ NONE2:  MOVE    T2
         WAIT    "NO BASE STANDS UNDER PIN 2, OR IT MOVES WITH THE PIN"
         JUMP    IN2
 FULL2:  WAIT    "PIN 2 FINDS NO HOLE: ITS NOSE OR THE HOLE IS WRONG, OR THE BASE HAS MOVED, OR A JOINT READS WRONG"
-IN2:    OPEN    .5
+IN2:    OPEN    1.2
+        MOVE    Q2              ;unshifted along x, for SAVE measures from here
+        RESTORE Y1
         CENTER  .1
         SAVE    X2              ;where its hole is, along the line of centres
         OPEN    1.2

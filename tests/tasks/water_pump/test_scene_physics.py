@@ -2,10 +2,11 @@
 
 import numpy as np
 import pytest
-from scene_bench import FREE, Bench, pinned_base, shift
+from scene_bench import FREE, Bench, pinned_base, shift, standard_base
 
 from handeye.core.pose import planar, translated
 from handeye.tasks.stanford_cell.dimensions import base_top, dimensions, pin_seat, screw_holes, standard
+from handeye.tasks.water_pump.scene.solids import casting
 from handeye.tasks.water_pump.world.pump_world import PumpWorld
 
 
@@ -56,6 +57,40 @@ def test_a_pin_that_misses_its_hole_stands_on_the_face():
     bench.put("pin0", translated(standard(), [-1.3 * 0.0254, 0.3 * 0.0254, base_top() + 0.0195]))
     bench.run(0.05)
     assert bench.pose("pin0")[2, 3] > base_top() + 0.0185
+
+
+def meets_the_base(bench: Bench, pin: str) -> bool:
+    """True if the pin touches the base, or a body that is fixed to the base."""
+    parts = {bench.model.body(name).id for name in ("base", "base_lands", "base_bores")}
+    of = bench.model.geom_bodyid
+    pairs = ({int(of[a]), int(of[b])} for a, b in bench.data.contact.geom)
+    return any(bench.model.body(pin).id in pair and pair & parts for pair in pairs)
+
+
+@pytest.mark.slow
+def test_the_nose_of_a_pin_meets_metal_wherever_the_face_of_the_casting_is_drawn():
+    bench = standard_base()
+    vertices, triangles = casting(6)
+    corners = vertices[triangles]
+    up = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])[:, 2] / 2
+    face = np.flatnonzero((up > 0) & (corners[:, :, 2].min(axis=1) > base_top() - 1e-6))
+    rng = np.random.default_rng(1)
+    chosen = corners[rng.choice(face, 3000, p=up[face] / up[face].sum())]
+    places = np.einsum("ni,nij->nj", rng.dirichlet(np.ones(3), 3000), chosen)
+    entered = []
+    for x, y, _ in places:
+        z = base_top() + dimensions()("pin.nose_length") - 0.002  # the nose 2 mm deep
+        bench.put("pin0", standard() @ planar(x, y, z, 0.0))
+        if not meets_the_base(bench, "pin0"):
+            entered.append((x, y))
+    assert entered == []
+
+
+def test_every_tapped_hole_is_free_for_the_nose_of_a_pin():
+    bench = standard_base()
+    for x, y in screw_holes():
+        bench.put("pin0", standard() @ planar(x, y, base_top() + 0.001, 0.0))
+        assert not meets_the_base(bench, "pin0")
 
 
 @pytest.mark.slow

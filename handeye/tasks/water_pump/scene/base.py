@@ -13,10 +13,9 @@ from handeye.core.pose import Array
 from handeye.tasks.stanford_cell.dimensions import Dimensions, Point, base_top, dimensions, screw_holes
 from handeye.tasks.stanford_cell.shapes import Bore, Shaper, body_inertia, box_moments
 from handeye.tasks.water_pump.scene import solids
+from handeye.tasks.water_pump.scene.casting import add_casting, add_metal_beside_holes
 from handeye.tasks.water_pump.scene.fasteners import screw_look
 from handeye.tasks.water_pump.world.pump_world import PumpWorld
-
-_WEDGES = 24  # number of wedges around a large hole; each covers 15 degrees
 
 
 def add_base(shaper: Shaper, world: PumpWorld) -> None:
@@ -35,45 +34,15 @@ def add_base(shaper: Shaper, world: PumpWorld) -> None:
     x, length, width = d("base.plate.centre_x"), d("base.plate.length"), d("base.plate.width")
     low, high = (x - length / 2, -width / 2, 0.0), (x + length / 2, width / 2, d("base.plate.thickness"))
     shaper.box(body, "solid", low, high, name="plate")
-    _add_casting(shaper, body, d, holes)
+    add_casting(shaper, body, holes)
     _add_looks(shaper, body, world.screws)
     lands, bores = shaper.group(body, "lands"), shaper.group(body, "bores")
+    add_metal_beside_holes(shaper, bores, holes)
     for number, (x, y) in enumerate(holes):
         shaper.box(
             lands, "base_land", (x - 0.008, y - 0.008, base_top() - 0.010), (x + 0.008, y + 0.008, base_top())
         )
         _add_tapped_hole(shaper, body, bores, d, number, (x, y))
-
-
-def _add_casting(shaper: Shaper, body: mujoco.MjsBody, d: Dimensions, holes: Sequence[Point]) -> None:
-    """Add walls of solid metal around the large holes. A wedge that contains a tapped hole collides only with
-    the hand and the driver, so that a screw can enter the hole.
-    """
-    floor, top = d("base.plate.thickness"), base_top()
-    x2 = d("base.large_hole_2.x")
-    bores = (
-        ("wall_1", 0.0, d("base.large_hole_1.diameter"), d("base.casting.chamber_diameter")),
-        ("wall_2", x2, d("base.large_hole_2.diameter"), d("base.casting.inlet_diameter")),
-    )
-    reach = d("base.screw_holes.radius") + d("base.screw_holes.chamfer")
-    for mesh, x, inner, outer in bores:
-        wall = Bore(radius=inner / 2, outer=outer / 2, height=top - floor, sectors=_WEDGES)
-
-        def style(angle: float, x: float = x) -> str:
-            return "pierced" if any(_in_wedge(angle, hx - x, hy, reach) for hx, hy in holes) else "face"
-
-        shaper.ring(body, mesh, wall, (x, 0.0, floor), style)
-    depth = top - d("base.large_hole_1.depth")
-    shaper.cylinder(body, "face", bores[0][2] * 0.51, (0, 0, floor), (0, 0, depth), name="floor_1")
-    x0, y0, x1, y1 = d.all("base.casting.spout")
-    shaper.box(body, "wall", (x0, y0, floor), (x1, y1, top), name="spout")
-
-
-def _in_wedge(angle: float, x: float, y: float, reach: float) -> bool:
-    """Return True if a hole at (x, y) from the ring's axis (m), with radius `reach` (m), cuts into the wedge at
-    `angle` (rad)."""
-    away = abs(math.remainder(math.atan2(y, x) - angle, 2 * math.pi))
-    return away < math.pi / _WEDGES + math.asin(min(1.0, reach / math.hypot(x, y)))
 
 
 def _add_looks(shaper: Shaper, body: mujoco.MjsBody, screws: int) -> None:
