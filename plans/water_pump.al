@@ -337,34 +337,35 @@ R:      SKIPN   6
         AOJ     R
         OPEN    1
 
-; The gasket that is held, onto the pins. Fingers that close on its web know where it is along x; along y it is searched for:
-; about where the arm takes it, which is as far off as it was where the gasket lay, then about where the first pin is. No line
-; goes farther: .4 in off its place the gasket goes down beside the pins.
-DEFINE LAY
-        SEARCH  .05 ALONG 90 STEPS 3
-LG:     SKIPN   6               ;all places tried
-        JUMP    NEARER
-        MOVE    GON
-        RESTORE GRIP            ;higher, if it is held by the very tips
-        RESTORE X2
+; The gasket that is held, down to the pins, and over them if its holes are there.
+DEFINE LOWER
         STOP    [0 0 -24]
         CHANGE  [0 0 -1] 2.3
         SKIPN   23
         WAIT    "THE GASKET MEETS NOTHING: IT LIES REVERSED, OR IS LOST"
         TRAVEL  1.2 2.2         ;a gasket that stands on the pins stops high
+
+; The gasket that is held, onto the pins. Fingers that close on its web know where it is along x; along y it is searched for
+; about where the arm takes it, which is as far off as it was where the gasket lay. The first pin is no better guide: it tells
+; how far the arm and the blocks are off together, and the stand is not off with the blocks.
+DEFINE LAY
+        SEARCH  .05 ALONG 90 STEPS 3
+LG:     SKIPN   6               ;all places tried
+        JUMP    BEYOND
+        MOVE    GON
+        RESTORE GRIP            ;higher, if it is held by the very tips
+        RESTORE X2
+        LOWER
         SKIPE   8
         JUMP    ON
         AOJ     LG
-NEARER: SEARCH  .05 ALONG 90
+BEYOND: SEARCH  .05 ALONG 90    ;.2 in to either side: pressed on the pins, it has straightened between the fingers
 LN:     SKIPN   6
         JUMP    LEFT
         MOVE    GON
         RESTORE GRIP
         RESTORE X2
-        RESTORE Y1
-        STOP    [0 0 -24]
-        CHANGE  [0 0 -1] 2.3
-        TRAVEL  1.2 2.2
+        LOWER
         SKIPE   8
         JUMP    ON
         AOJ     LN
@@ -375,9 +376,7 @@ LL:     SKIPN   6
         RESTORE GRIP
         RESTORE X2
         TURN    GON 1.5
-        STOP    [0 0 -24]
-        CHANGE  [0 0 -1] 2.3
-        TRAVEL  1.2 2.2
+        LOWER
         SKIPE   8
         JUMP    ON
         AOJ     LL
@@ -388,9 +387,7 @@ LR:     SKIPN   6
         RESTORE GRIP
         RESTORE X2
         TURN    GON -1.5
-        STOP    [0 0 -24]
-        CHANGE  [0 0 -1] 2.3
-        TRAVEL  1.2 2.2
+        LOWER
         SKIPE   8
         JUMP    ON
         AOJ     LR
@@ -401,11 +398,7 @@ LF:     SKIPN   6
         RESTORE GRIP
         RESTORE X2
         RESTORE Y1
-        STOP    [0 0 -24]
-        CHANGE  [0 0 -1] 2.3
-        SKIPN   23
-        WAIT    "THE GASKET MEETS NOTHING: IT LIES REVERSED, OR IS LOST"
-        TRAVEL  1.2 2.2
+        LOWER
         SKIPN   8
         AOJ     LF
 ON:     OPEN    1.9

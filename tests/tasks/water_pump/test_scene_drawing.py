@@ -3,10 +3,10 @@
 import mujoco
 import numpy as np
 import pytest
-from scene_bench import Bench
+from scene_bench import Bench, standard_base
 
 from handeye.core.errors import InvalidInput
-from handeye.core.pose import planar
+from handeye.core.pose import planar, translated
 from handeye.core.units import INCH
 from handeye.tasks.stanford_cell.arm import ARM
 from handeye.tasks.stanford_cell.dimensions import (
@@ -42,7 +42,8 @@ def gauge(model, mesh):
     ("mesh", "figure", "scale"),
     [
         ("tap", "base.screw_holes.radius", 1.0),
-        ("gasket_hole", "gasket.screw_hole_radius", 1.0),
+        ("gasket_hole_1", "gasket.screw_hole_radius", 1.0),
+        ("gasket_hole_2", "gasket.screw_hole_radius", 1.0),
         ("top_hole", "top.screw_hole_radius", 1.0),
         ("holder", "pin_holder.hole_radius", 1.0),
         ("wall_1", "base.large_hole_1.diameter", 0.5),
@@ -51,6 +52,36 @@ def gauge(model, mesh):
 )
 def test_holes_that_parts_meet_are_as_wide_as_drawn(bench, mesh, figure, scale):
     assert gauge(bench.model, mesh) == pytest.approx(dimensions()(figure) * scale, abs=1e-6)
+
+
+def test_a_gasket_beside_its_place_stands_on_a_pin_wherever_the_search_takes_it():
+    """The hand lays the gasket up to .25 in beside its place, and the search tries places up to .2 in on the other
+    side. Until this was so, the pins went through the sheet, and the hand met nothing."""
+    bench, d = standard_base(), dimensions()
+    for pin, hole in enumerate(int(k) for k in d.all("base.screw_holes.pinned")):
+        bench.put(f"pin{pin}", standard() @ planar(*screw_holes()[hole], base_top(), 0.0))
+    ends = base_top() + d("pin.body_length")
+    through = []
+    for aside in np.linspace(-0.45, 0.45, 19) * INCH:
+        bench.put("gasket", translated(standard(), [0.0, aside, ends - 2e-4]))
+        if not pins_touched(bench):
+            through.append(round(float(aside / INCH), 2))
+    assert through == [-0.05, 0.0, 0.05]  # there the bevels guide its holes over the pins
+
+
+def pins_touched(bench):
+    bodies = bench.model.geom_bodyid[bench.data.contact.geom]
+    pins = np.isin(bodies, [bench.model.body(name).id for name in ("pin0", "pin1")]).any(axis=1)
+    return bool((pins & (bodies == bench.model.body("gasket_bores").id).any(axis=1)).any())
+
+
+def test_the_sheet_around_a_hole_reaches_no_farther_than_the_gasket_is_wide():
+    d, half = dimensions(), np.pi / 12  # of a wedge: its corners reach farther than its middle
+    x, y = screw_holes()[0]
+    inner = (d("base.large_hole_1.diameter") + d("gasket.hole_oversize")) / 2
+    outer = d("base.casting.chamber_diameter") / 2
+    reach = d.all("gasket.sheet")[0] / np.cos(half)
+    assert inner < np.hypot(x, y) - reach < np.hypot(x, y) + reach < outer
 
 
 def test_a_wedge_carries_the_chamfers_of_its_bore():

@@ -22,10 +22,11 @@ def add_gasket(shaper: Shaper, world: PumpWorld) -> None:
     )
     # The contacts need a mass greater than a sheet's; the moments are those of this mass, spread over the outline.
     body_inertia(body, d("gasket.mass"), (0.03, 0.0, thick / 2), (4e-5, 8e-5, 1.2e-4))
-    hole = Bore(radius=d("gasket.screw_hole_radius"), outer=0.007, height=thick)
     lands, bores = shaper.group(body, "lands"), shaper.group(body, "bores")
     for number, (px, py) in enumerate(world.drilled("gasket")):
-        shaper.ring(bores, "gasket_hole", hole, (px, py, 0.0), lambda _: "bore")
+        end = int(px > web_centre())  # 0 beside large hole 1, 1 beside large hole 2
+        hole = Bore(radius=d("gasket.screw_hole_radius"), outer=d.all("gasket.sheet")[end], height=thick)
+        shaper.ring(bores, f"gasket_hole_{end + 1}", hole, (px, py, 0.0), lambda _: "bore")
         shaper.hole(body, f"gasket_hole{number}", (px, py, thick), hole.radius)
         shaper.ball(lands, "gasket_land", thick / 2, (px, py, thick / 2))
     half = d("gasket.web") / 2
