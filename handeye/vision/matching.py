@@ -53,9 +53,9 @@ Percentiles nearer the median depend on the direction of the lamp more than on h
 DARK: Final = 6.7
 """Least brightness (levels) of the part in the earlier picture: the median of the picture's levels on the part.
 
-In the shadow of the arm, only the light of the room falls on the part. There, a missing head gives .27 to .31 times
-the median (six worlds), and so reaches the limit `DIFFERENT` at a median of at most 5.9. The limit is larger, to leave
-a margin for the noise. On a finished pump that the lamp lights, the median is 9.1 to 11.1 levels (161 directions and
+In the shadow of the arm, only the light of the room falls on the part. There, a missing head gives at least .27 times
+the median (five directions and strengths of the lamp), and so reaches the limit `DIFFERENT` at a median of at most
+5.9. The limit is larger, to leave a margin for the noise. On a finished pump that the lamp lights, the median is 9.1 to 11.1 levels (161 directions and
 strengths of the lamp). The contrast cannot show a shadow: the edge of the shadow raises the contrast.
 """
 BESIDE: Final = 12
