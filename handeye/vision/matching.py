@@ -55,8 +55,9 @@ DARK: Final = 6.7
 
 In the shadow of the arm, only the light of the room falls on the part. There, a missing head gives at least .27 times
 the median (five directions and strengths of the lamp), and so reaches the limit `DIFFERENT` at a median of at most
-5.9. The limit is larger, to leave a margin for the noise. On a finished pump that the lamp lights, the median is 9.1 to 11.1 levels (161 directions and
-strengths of the lamp). The contrast cannot show a shadow: the edge of the shadow raises the contrast.
+5.9. The limit is larger, to leave a margin for the noise. On a finished pump that the lamp lights, the median is 9.1
+to 11.1 levels (161 directions and strengths of the lamp). The contrast cannot show a shadow: the edge of the shadow
+raises the contrast.
 """
 BESIDE: Final = 12
 """Width (points) of a strip around the part. The strip counts neither as part nor as surroundings.
