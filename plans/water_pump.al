@@ -1113,13 +1113,14 @@ ALL:    BLOCKS                  ;home, before it is felt
         BLOCKS                  ;the driver has drawn it off a little
         ROTATION                ;driven again, the screws may have made the rotor bind
         OPEN    0               ;as in the last picture: the shadow of the hand may lie on the pump
-        PARK
+        MOVE    BACK            ;from PARK, the arm would shade a head in one world of 19
         LOOK    WHOLE           ;what is lost from here on, the last picture shows
         BLOCKS                  ;home, if it was moved before the picture: then the next one differs
         LAYERS
         TOOLS                   ;no camera sees them
-        PARK
+        MOVE    BACK
         LOOK    DONE HOLD
         MATCH   PUMP WHOLE DONE ;does it still stand as it was felt?
         SKIPN   33
         JUMP    MOVED
+        PARK

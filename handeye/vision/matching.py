@@ -14,9 +14,9 @@ import numpy as np
 from handeye.core.errors import BadArgument
 from handeye.core.units import INCH
 from handeye.ports.camera import COLUMNS, ROWS, Picture
-from handeye.program.diagnosis.causes import FaintPicture, OutsidePicture, PartAstray
+from handeye.program.diagnosis.causes import DarkPart, FaintPicture, OutsidePicture, PartAstray
 from handeye.program.program import Part
-from handeye.vision.alignment import Points, moved, shift, smooth
+from handeye.vision.alignment import moved, shift, smooth
 from handeye.vision.base import Failure, PartMatch, silhouettes
 from handeye.vision.camera_model import View, in_picture
 
@@ -39,13 +39,25 @@ distribution, here of location .86 and scale .05, so the limit is reached once i
 is missing gives 3.7 to 5.6. A screw that stands 2.5 mm high gives .8 to 2.0, so most such screws are missed; a screw
 behind the crank is not visible at all.
 """
-FAINT: Final = 3.3
-"""Least contrast (levels) of the earlier picture on the part: the difference between the 10th and the 90th percentile
+FAINT: Final = 3.4
+"""Least contrast (levels) of the earlier picture on the part: the difference between the 2nd and the 98th percentile
 of the picture's levels.
 
-Limits in levels mean something only in pictures of about the usual contrast, which is 6.6 to 7.4 levels on a pump
-(five worlds). In such pictures, a missing head gives at least 3.7 levels. At a contrast of 2.9 levels, a missing head
-would thus give 1.6 levels, which is the limit `DIFFERENT`. FAINT is 3.3 instead of 2.9 to leave a margin for the noise.
+Limits in levels mean something only in pictures of about the usual contrast. On a finished pump that the lamp lights,
+the contrast is 5.8 to 10.2 levels, which is 1.4 to 1.84 times the mean difference that a missing head gives (13
+directions and strengths of the lamp, five heads; heads in the shadow of the crank left out). So a missing head reaches
+the limit `DIFFERENT` at a contrast of at most 2.95 levels. The limit is larger, to leave a margin for the noise.
+Percentiles nearer the median depend on the direction of the lamp more than on how well a head can be seen: from the
+10th to the 90th percentile, the contrast is .8 to 1.5 times the difference that a missing head gives.
+"""
+DARK: Final = 6.7
+"""Least brightness (levels) of the part in the earlier picture: the median of the picture's levels on the part.
+
+In the shadow of the arm, only the light of the room falls on the part. There, a missing head gives at least .27 times
+the median (five directions and strengths of the lamp), and so reaches the limit `DIFFERENT` at a median of at most
+5.9. The limit is larger, to leave a margin for the noise. On a finished pump that the lamp lights, the median is 9.1
+to 11.1 levels (161 directions and strengths of the lamp). The contrast cannot show a shadow: the edge of the shadow
+raises the contrast.
 """
 BESIDE: Final = 12
 """Width (points) of a strip around the part. The strip counts neither as part nor as surroundings.
@@ -72,9 +84,11 @@ def match(
     cv2.fillConvexPoly(drawn, np.rint(hull).astype(np.int32), 1)
     wide = cv2.dilate(drawn, np.ones((2 * BESIDE + 1, 2 * BESIDE + 1), np.uint8))
     its, around = drawn > 0, wide == 0
-    contrast = _contrast(before, its)
-    if contrast < FAINT:  # a faint second picture differs from the first
+    low, middle, high = np.percentile(smooth(before)[its], (2, 50, 98))
+    if (contrast := float(high - low)) < FAINT:  # a faint second picture differs from the first
         return Failure(cause=FaintPicture(contrast=round(contrast, 2), least=FAINT))
+    if (brightness := float(middle)) < DARK:
+        return Failure(cause=DarkPart(brightness=round(brightness, 2), least=DARK))
     background = shift(before, after, around)
     own = shift(before, after, its)
     z = part.at[2] + part.face
@@ -90,8 +104,3 @@ def match(
         shift=off,
         unlike=unlike,
     )
-
-
-def _contrast(picture: Picture, where: Points) -> float:
-    dark, bright = np.percentile(smooth(picture)[where], (10, 90))
-    return float(bright - dark)

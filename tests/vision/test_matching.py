@@ -2,16 +2,17 @@
 
 import numpy as np
 import pytest
-from synthetic import FINE, Canvas, draw_base, part, view
+from synthetic import FINE, HOLE, PLATE, Canvas, draw_base, part, view
 
 from handeye.core.units import DEGREE, INCH
-from handeye.program.diagnosis.causes import FaintPicture, OutsidePicture, PartAstray
+from handeye.program.diagnosis.causes import DarkPart, FaintPicture, OutsidePicture, PartAstray
 from handeye.vision.base import Failure, PartMatch
-from handeye.vision.matching import FAINT, MOVED, match
+from handeye.vision.matching import DARK, FAINT, MOVED, match
 
 PART = part(180 * DEGREE)
 POSE = (PART.at[0], PART.at[1], PART.at[3])
 WHERE = view(0.050, (POSE[0] - 1.4 * INCH, POSE[1], 2.75 * INCH))
+LIT, DULL = 10, 5  # levels
 NOISE = 1.0
 """Levels, as of the vidicon."""
 
@@ -22,22 +23,31 @@ def picture(
     turn: float = 0.0,
     dark: bool = False,
     head: float = 0.0,
+    shade: float = 1.0,
+    backlit: bool = False,
 ) -> np.ndarray:
     """A base moved by so much (in) and turned (rad), or none, on a belt with the edge of something else.
 
-    A screw head on it, 7 points wide, is brighter than the base by `head` levels.
+    A screw head on it, 7 points wide, is brighter than the base by `head` levels. From the screw head to the left, a
+    shadow leaves the fraction `shade` of the light. If the lamp is behind the base
+    (`backlit`), only a block on the base is dark.
     """
     rng = np.random.default_rng(seed)
-    canvas = Canvas()
-    canvas.fine[:, :160] = 8
-    canvas.fine[:60] = 10
+    canvas = Canvas(LIT - 1) if backlit else Canvas()
+    canvas.fine[:, :160] = 13 if backlit else 8
+    canvas.fine[:60] = DULL if backlit else 10
     if by is not None:
         there = (POSE[0] + by[0] * INCH, POSE[1] + by[1] * INCH, POSE[2] + turn)
         draw_base(canvas, WHERE, PART, there)
     u, v = np.rint(WHERE.project(np.array([[POSE[0], POSE[1], PART.at[2] + PART.face]]))[0] * FINE).astype(
         int
     )
+    canvas.fine[canvas.fine == PLATE] = LIT  # as bright as the plate of a pump that the lamp lights
+    if backlit:
+        canvas.fine[canvas.fine == HOLE] = LIT - 1
+        canvas.fine[v - 6 * FINE : v + 6 * FINE, u - 70 * FINE : u - 30 * FINE] = DULL
     canvas.fine[v - 3 * FINE : v + 4 * FINE, u - 3 * FINE : u + 4 * FINE] += head
+    canvas.fine[:, : u + 20 * FINE] *= shade
     if dark:
         canvas.fine /= 4
     return canvas.picture(rng, NOISE)
@@ -103,6 +113,23 @@ def test_an_earlier_picture_too_faint_to_show_a_missing_head_is_no_match() -> No
         assert isinstance(found, Failure)
         assert isinstance(found.cause, FaintPicture)
         assert found.cause.contrast < found.cause.least == FAINT
+
+
+def test_under_a_lamp_behind_the_part_a_missing_head_is_noticed() -> None:
+    whole, without = picture(1, head=2.5, backlit=True), picture(7, backlit=True)
+    assert isinstance(found := match(whole, picture(2, head=2.5, backlit=True), WHERE, PART, POSE), PartMatch)
+    assert found.ok
+    assert isinstance(found := match(whole, without, WHERE, PART, POSE), PartMatch)
+    assert isinstance(found.cause, PartAstray)
+
+
+def test_a_part_in_a_shadow_too_deep_to_show_a_missing_head_is_no_match() -> None:
+    before, after = picture(1, head=4, shade=0.4), picture(7, shade=0.4)
+    assert isinstance(
+        seen := match(before, after, WHERE, PART, POSE), Failure
+    )  # though the pictures look alike
+    assert isinstance(seen.cause, DarkPart)
+    assert seen.cause.brightness < seen.cause.least == DARK
 
 
 def test_a_part_that_is_not_wholly_in_the_picture_cannot_be_matched() -> None:

@@ -71,7 +71,14 @@ def cause_sentence(cause: Cause) -> str:
             return f"no picture {cause.picture} was taken"
         case c.NoGeneral():
             return "no earlier GENERAL found the part"
-        case c.NoOutline() | c.OutsidePicture() | c.FaintPicture() | c.NoHoles() | c.CallersVision():
+        case (
+            c.NoOutline()
+            | c.OutsidePicture()
+            | c.FaintPicture()
+            | c.DarkPart()
+            | c.NoHoles()
+            | c.CallersVision()
+        ):
             return _not_found(cause)
         case c.NoGasket() | c.GasketWrong():
             return inspection_sentence(cause)
@@ -167,6 +174,11 @@ def _not_found(cause: c.SightCause) -> str:
             return (
                 f"the earlier picture is too faint to compare: its contrast on the part is {cause.contrast:.1f} "
                 f"grey levels, but at least {cause.least:.1f} are needed; check camera and light"
+            )
+        case c.DarkPart():
+            return (
+                f"the part is too dark in the earlier picture to compare: its median is {cause.brightness:.1f} "
+                f"grey levels, but at least {cause.least:.1f} are needed; does a shadow lie on it?"
             )
         case c.NoHoles(blobs=0):
             return "found no hole: is the picture in focus, and is the part in it?"

@@ -167,6 +167,15 @@ class FaintPicture(CauseRecord, frozen=True, kw_only=True):
     least: float
 
 
+class DarkPart(CauseRecord, frozen=True, kw_only=True):
+    """The part is too dark in the earlier picture, so the pictures do not show whether the part has changed. Both
+    numbers are in grey levels.
+    """
+
+    brightness: float
+    least: float
+
+
 class NoHoles(CauseRecord, frozen=True, kw_only=True):
     """The two largest holes of the part are not among the dark blobs of the picture."""
 
@@ -301,7 +310,7 @@ class UndoUnknown(CauseRecord, frozen=True, kw_only=True):
 
 
 SightCause = (
-    NoOutline | OutsidePicture | FaintPicture | NoHoles | CallersVision
+    NoOutline | OutsidePicture | FaintPicture | DarkPart | NoHoles | CallersVision
 )  # causes for which vision does not find a part
 UndoCause = UndoResisted | HoldOff | MetEarly | ScrewFast | ScrewLost | BackingOut | UndoUnknown
 InspectionCause = NoGasket | GasketWrong | CallersVision
