@@ -351,7 +351,7 @@ DEFINE LOWER
 DEFINE LAY
         SEARCH  .05 ALONG 90 STEPS 3
 LG:     SKIPN   6               ;all places tried
-        JUMP    BEYOND
+        JUMP    LEFT
         MOVE    GON
         RESTORE GRIP            ;higher, if it is held by the very tips
         RESTORE X2
@@ -359,9 +359,31 @@ LG:     SKIPN   6               ;all places tried
         SKIPE   8
         JUMP    ON
         AOJ     LG
-BEYOND: SEARCH  .05 ALONG 90    ;.2 in to either side: pressed on the pins, it has straightened between the fingers
+LEFT:   SEARCH  .05 ALONG 90    ;it may have lain askew, and so the fingers hold it: two degrees to the left
+LL:     SKIPN   6
+        JUMP    RIGHT
+        MOVE    GON
+        RESTORE GRIP
+        RESTORE X2
+        TURN    GON 2
+        LOWER
+        SKIPE   8
+        JUMP    ON
+        AOJ     LL
+RIGHT:  SEARCH  .05 ALONG 90    ;and to the right
+LR:     SKIPN   6
+        JUMP    STRAIGHT
+        MOVE    GON
+        RESTORE GRIP
+        RESTORE X2
+        TURN    GON -2
+        LOWER
+        SKIPE   8
+        JUMP    ON
+        AOJ     LR
+STRAIGHT: SEARCH .05 ALONG 90   ;.2 in to either side: pressed on the pins, it has straightened between the fingers
 LN:     SKIPN   6
-        JUMP    LEFT
+        JUMP    WIDER
         MOVE    GON
         RESTORE GRIP
         RESTORE X2
@@ -369,28 +391,6 @@ LN:     SKIPN   6
         SKIPE   8
         JUMP    ON
         AOJ     LN
-LEFT:   SEARCH  .05 ALONG 90    ;base and hand may be turned against each other: a degree and a half to the left
-LL:     SKIPN   6
-        JUMP    RIGHT
-        MOVE    GON
-        RESTORE GRIP
-        RESTORE X2
-        TURN    GON 1.5
-        LOWER
-        SKIPE   8
-        JUMP    ON
-        AOJ     LL
-RIGHT:  SEARCH  .05 ALONG 90    ;and to the right
-LR:     SKIPN   6
-        JUMP    WIDER
-        MOVE    GON
-        RESTORE GRIP
-        RESTORE X2
-        TURN    GON -1.5
-        LOWER
-        SKIPE   8
-        JUMP    ON
-        AOJ     LR
 WIDER:  SEARCH  .05
 LF:     SKIPN   6
         WAIT    "THE GASKET DOES NOT GO DOWN ON ITS PINS: IT IS HELD ASKEW, OR A JOINT READS WRONG"

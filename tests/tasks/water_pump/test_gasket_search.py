@@ -15,7 +15,7 @@ import pytest
 from handeye.arm.ik import solve
 from handeye.arm.kinematics import forward
 from handeye.arm.robots.stanford import STANFORD
-from handeye.core.pose import Array, Pose, hand, planar
+from handeye.core.pose import Array, Pose, hand, planar, pose, rotation_z, translated
 from handeye.core.units import INCH
 from handeye.core.variation import WorldSpec
 from handeye.tasks.stanford_cell.dimensions import PARK, dimensions, screw_holes, standard, web_centre
@@ -29,6 +29,11 @@ CATCH = (
     - dimensions()("pin.body_radius")
     + dimensions()("pin.body_bevel")
 )
+STEP = 0.05
+"""Distance (in) of the places on a line."""
+HAND = 0.015
+"""How far (in) the hand may stop beside a place of a search: the greatest error along x or y at ten places in the world of
+seed 986041 at the high level."""
 
 
 @cache
@@ -46,12 +51,10 @@ def arrived(world: PumpWorld, position: str) -> Pose:
     return forward(STANFORD, world.arm.positions(joints(position)))
 
 
-def pins_aside(world: PumpWorld) -> tuple[float, float]:
-    """How far along y (in) the hand must carry the gasket from GON, so that the middle of its two holes comes to the
-    middle of the pins; and how far from Q1, as the arm reads it, the first pin stands (Y1)."""
+def base_and_gasket(world: PumpWorld) -> tuple[Pose, Pose]:
+    """The base against its blocks, and the gasket on its stand."""
     d = dimensions()
     far, left = d.all("blocks.far"), d.all("blocks.left")
-    X_WB = world.fixtures[Station.BLOCKS].about(left[2], far[1]) @ standard()
     (x, y), high = d.all("gasket_stand.grasp"), d("gasket_stand.height")
     origin = (x + web_centre(), y, high)
     X_WG = (
@@ -59,12 +62,35 @@ def pins_aside(world: PumpWorld) -> tuple[float, float]:
         @ world.parts["gasket"].about(*origin)
         @ planar(*origin, standard_yaw())
     )
-    X_HG = np.linalg.inv(arrived(world, "G")) @ X_WG
-    laid = arrived(world, "GON") @ X_HG
-    holes = [screw_holes()[int(k)] for k in d.all("base.screw_holes.pinned")]
-    middle = planar(*np.mean(holes, axis=0), 0.0, 0.0)
-    pin = (X_WB @ planar(*holes[0], 0.0, 0.0) - arrived(world, "Q1"))[1, 3]
-    return (X_WB @ middle - laid @ middle)[1, 3] / INCH, pin / INCH
+    return world.fixtures[Station.BLOCKS].about(left[2], far[1]) @ standard(), X_WG
+
+
+def pinned() -> list[Pose]:
+    """The two holes that the pins are in, in the frame of a part."""
+    return [planar(*screw_holes()[int(k)], 0.0, 0.0) for k in dimensions().all("base.screw_holes.pinned")]
+
+
+def pins_aside(world: PumpWorld) -> tuple[float, float]:
+    """How far along y (in) the hand must carry the gasket from GON, so that the middle of its two holes comes to the
+    middle of the pins; and how far from Q1, as the arm reads it, the first pin stands (Y1)."""
+    X_WB, X_WG = base_and_gasket(world)
+    laid = arrived(world, "GON") @ np.linalg.inv(arrived(world, "G")) @ X_WG
+    wanted = np.mean([(X_WB @ hole - laid @ hole)[1, 3] for hole in pinned()])
+    pin = (X_WB @ pinned()[0] - arrived(world, "Q1"))[1, 3]
+    return float(wanted) / INCH, pin / INCH
+
+
+def holes_off_pins(world: PumpWorld, turn: float) -> Array:
+    """How far each of the two holes is from its pin, shape (2, 2), m, if the fingers have taken the gasket in the
+    middle of its web, hold it as it lay, and bring it to GON where X2 says, turned (deg)."""
+    X_WB, X_WG = base_and_gasket(world)
+    taken, brought = arrived(world, "G"), arrived(world, "GON")
+    web = (X_WG @ planar(web_centre(), 0.0, 0.0, 0.0))[:3, 3]
+    X_WG = translated(X_WG, [taken[0, 3] - web[0], 0.0, 0.0])
+    x2 = (X_WB @ pinned()[1] - arrived(world, "Q2"))[0, 3]
+    hand = pose(rotation_z(np.radians(turn)) @ brought[:3, :3], brought[:3, 3] + [x2, 0.0, 0.0])
+    laid = hand @ np.linalg.inv(taken) @ X_WG
+    return np.array([(laid @ hole - X_WB @ hole)[:2, 3] for hole in pinned()])
 
 
 def standard_yaw() -> float:
@@ -91,22 +117,25 @@ def places() -> Iterator[tuple[int, dict[str, Any]]]:
             yield number, do
 
 
-def lines() -> Iterator[tuple[float, set[str]]]:
-    """Of each search along y, how far it reaches to either side (in), and what shifts its places."""
+def lines() -> Iterator[tuple[float, float, set[str]]]:
+    """Of each search along y, how far it reaches to either side (in), how far the hand is turned (deg), and what shifts
+    its places."""
     for number, do in places():
         search = next(
             step["operation"] for step in steps()[number::-1] if step["operation"]["op"] == "search"
         )
         if search.get("along"):
+            then = steps()[number + 1]["text"].split()
+            turn = float(then[2]) if then[0] == "TURN" else 0.0
             shifts = {shift["name"] for shift in do["restore"]}
-            yield (search["limit"] - 1) / 2 * search["step"] / INCH, shifts
+            yield (search["limit"] - 1) / 2 * search["step"] / INCH, turn, shifts
 
 
 @pytest.mark.slow
 def test_the_first_pin_is_a_worse_guide_than_the_place_where_the_gasket_lay() -> None:
     aside, pin = needs("high").T
     assert np.std(aside) < 0.085 < np.std(aside - pin)
-    assert not any({"Y1", "E1"} & shifts for _, shifts in lines())
+    assert not any({"Y1", "E1"} & shifts for *_, shifts in lines())
 
 
 @pytest.mark.slow
@@ -119,7 +148,25 @@ def test_the_lines_of_the_search_reach_three_sigma(
     spread = np.std(needs(level)[:, 0])
     half = np.hypot(*np.subtract(*(screw_holes()[k] for k in (1, 4)))) / 2
     catch = (CATCH - half * np.radians(0.5)) / INCH
-    assert 3 * spread < choose([reach for reach, _ in lines()]) + catch
+    assert 3 * spread < choose([reach for reach, *_ in lines()]) + catch
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("level", "most"), [("nominal", 0.0), ("high", 0.005)])
+def test_a_gasket_fits_somewhere_though_the_fingers_hold_it_askew(level: str, most: float) -> None:
+    """At a place of some line, the bevels of both pins guide the holes over them. With the hand turned by 1.5 degrees
+    instead of 2, they would not in five of these worlds of the high level."""
+    missed = [seed for seed in range(WORLDS) if not fits(PumpWorld.draw(WorldSpec(seed=seed, level=level)))]
+    assert len(missed) <= most * WORLDS, missed
+
+
+def fits(world: PumpWorld) -> bool:
+    for reach, turn, _ in lines():
+        off = holes_off_pins(world, turn)
+        for aside in np.linspace(-reach, reach, round(2 * reach / STEP) + 1) * INCH:
+            if (np.hypot(*(off + np.array([0.0, aside])).T) < CATCH - HAND * INCH).all():
+                return True
+    return False
 
 
 def test_at_each_place_the_program_asks_whether_the_gasket_met_anything() -> None:
