@@ -32,8 +32,8 @@ CATCH = (
 STEP = 0.05
 """Distance (in) of the places on a line."""
 HAND = 0.015
-"""How far (in) the hand may stop beside a place of a search, along x or y: the greatest error at ten places in the world
-of seed 986041 at the high level."""
+"""How far (in) the hand may stop beside a place of a search, along x or y: the greatest error at ten places in the
+world of seed 986041 at the high level."""
 
 
 @cache
