@@ -150,8 +150,8 @@ class First:
     period: int | None = None  # servo period of the step, counted from 1; None outside servo periods
     differing: QuantityDifference
     next: tuple[AnyEvent | None, AnyEvent | None] = (None, None)
-    """If the first difference is that the runs have different events: the next event of each run. None for a run that
-    has ended, or whose step continues with a servo period.
+    """The next event of each run, if the first difference is that the runs have different events. A run has None here
+    if it has ended, or if its step continues with a servo period instead of an event.
     """
 
     @property

@@ -170,8 +170,8 @@ class Leg:
 
     begin: float  # s on the common timeline
     a: float
-    """Time in the first run at the beginning of the leg, in s since that run began. During the leg, this time advances
-    evenly to its value at the beginning of the next leg.
+    """Time in the first run at the beginning of the leg, in s since that run began. During the leg, the time in the
+    run advances evenly to the value of `a` in the next leg.
     """
     b: float
     places: tuple[Place | None, Place | None]

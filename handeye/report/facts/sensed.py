@@ -19,8 +19,8 @@ from handeye.trace.forces import Forces
 from handeye.trace.stages import done_steps
 
 FORCE: Final = 0.2
-"""Greatest error (N), in each direction, of the force that the report draws. It is a tenth of the smallest force limit
-that a program gives to a guard.
+"""Greatest error (N) of each component of the force that the report draws: a tenth of the smallest force limit that a
+program gives to a guard.
 """
 
 
