@@ -61,7 +61,7 @@ class AttemptOptions:
     camera: Camera = "auto"
 
     def carry_out(self, name: str, count: int, options: SweepOptions) -> int:
-        """Run `count` trials of the task; raises NoSuchName if the task has no trial with that name."""
+        """Run `count` trials of the kind `name`; raises NoSuchName if the task has no such kind of trial."""
         from handeye.trials.eye import EyeWork, eye_cases, eye_sweep
         from handeye.trials.folder import head_of
 

@@ -22,8 +22,8 @@ class Difference(Record, frozen=True, kw_only=True):
     pairs: int
     more: float  # Median, over the pairs, of the value in this batch minus the value in the first batch
     p: float
-    """Two-sided p-value of Wilcoxon's signed-rank test. If neither batch were better, differences that favour one
-    batch at least as strongly as the measured differences would occur with the probability `p`.
+    """Two-sided p-value of Wilcoxon's signed-rank test. If neither batch were better, `p` would be the probability of
+    differences that favour one batch at least as strongly as the measured differences.
     """
 
 

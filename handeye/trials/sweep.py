@@ -143,8 +143,8 @@ class Details:
     name: str  # Name of the table and of its key in the JSON
     title: str
     rows: Sequence[Record]
-    """Flat records, whose fields are the columns. Fields that end in `_share` are fractions of 1, fields in `_s`
-    are seconds.
+    """Flat records, whose fields are the columns. Fields that end in `_share` are fractions of 1. Fields that end in
+    `_s` are seconds.
     """
     heads: tuple[str, ...]
     span: tuple[str, str, str] | None = None

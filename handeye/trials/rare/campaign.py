@@ -46,8 +46,8 @@ class Estimated(Record, frozen=True, kw_only=True):
 
     failure: FailureKind
     reached: bool
-    """True if worlds with this kind of failure were found. If False, the estimate is the probability of a
-    margin that is at most the threshold of the last level.
+    """True if worlds with this kind of failure were found. If False, the estimate is the probability that a run's
+    margin is at most the threshold of the last level.
     """
     threshold: float
     estimate: Estimate

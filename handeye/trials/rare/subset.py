@@ -26,7 +26,7 @@ Papaioannou and others.
 FIRST_STEP: Final = 0.6  # Papaioannou and others
 SMALLEST_STEP: Final = 0.02
 REDRAWN: Final = 0.5
-"""Probability with which a candidate has new noise. The other candidates keep the noise of the state from which they
+"""Probability with which a candidate has new noise. The other candidates keep the noise of the point from which they
 were made. If every candidate had new noise, each step would lose the failures that occur only with a rare noise. The
 value is our choice.
 """
@@ -34,8 +34,8 @@ NORMAL_95: Final = 1.96  # standard deviations
 FAILED: Final = 0.0  # a run whose margin is not above this has failed
 
 Margins = Callable[[int, Sequence[Point]], Sequence[float]]
-"""Function that takes the number of a level and points of this level, and runs the world of each point. The function
-returns the margin of each run.
+"""Function that runs the world of each point. The function takes the number of a level and the points of this level,
+and returns the margin of each run.
 """
 
 

@@ -59,7 +59,7 @@ class Chess(JobTask):
                 lifted / MILLIMETRE, STANDS, "mm", "greatest height of a piece's foot above the board"
             ),
             "sorted": at_most(
-                across, PLACED, "mm", "greatest distance of a piece from the line for its height"
+                across, PLACED, "mm", "greatest distance of a piece from the line where pieces of its height belong"
             ),
             "heights": at_most(wrong, HEIGHT, "mm", "greatest error of a height measured by the program"),
         }

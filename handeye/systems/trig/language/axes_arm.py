@@ -1,4 +1,4 @@
-"""Drives a machine with axes as a TRIG arm. Moves are sequences of set-points; guarded moves use the finger
+"""Lets a machine with axes serve as a TRIG arm. Moves are sequences of set-points; guarded moves use the finger
 that senses force.
 """
 
