@@ -76,7 +76,7 @@ _MEANINGS: Final = {
     "counter-clockwise)",
     "STOP": (
         "end the next motion when the hand presses along this vector with a force (oz) greater than the length of "
-        "the vector; if a moment (oz-in) is given, also when the hand exerts more than this moment. A single "
+        "the vector. If a moment (oz-in) is given, a greater moment of the hand also ends the motion. A single "
         "number is an extension of handeye: the motion ends when more than this force opposes it, in whatever "
         "direction the hand moves. Error 23 if nothing stops the motion"
     ),
@@ -99,9 +99,9 @@ _MEANINGS: Final = {
     "SKIPE": "if the last action raised this error, clear the error and skip the next instruction",
     "SKIPN": "if the last action did not raise this error, skip the next instruction; if it did, clear the error",
     "SEARCH": (
-        "start a search of places on a square spiral, one step (inches) apart, with three steps to each side; with "
+        "start a search of places on a square spiral, one step (inches) apart, with three steps to each side. With "
         "ALONG, the places are on a line in the given direction (degrees from the x axis of the table), with four "
-        "steps to each side; STEPS sets a different number of steps"
+        "steps to each side. STEPS sets a different number of steps"
     ),
     "AOJ": "select the next place of the search and jump back to the label; error 6 if no place is left",
     "ASSIGN": "set a counter",
