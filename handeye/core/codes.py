@@ -210,8 +210,8 @@ CODES: Final[dict[str, Code]] = {
         "warning",
     ),
     "test-of-no-effect": _warning(
-        "a test can skip only the test after it, so the instructions after both tests do not depend on the error "
-        "of the first test",
+        "the instruction after a test is another test, so the instructions after both tests do not depend on the "
+        "error of the first test",
         "L: CLOSE .1 .2\nSKIPE 2\nSKIPE 7\nJUMP L\nPARK",
     ),
     "test-without-action": _warning("a test has no action directly before it", "SKIPE 23\nPARK"),
