@@ -86,8 +86,10 @@ _MEANINGS: Final = {
     "SPIN": "let the hand yield to moments about the given table axes during the next CHANGE: give 1 (yield) or 0 "
     "(stay stiff) for each axis, or the number of axes that yield and their names, such as `2 X Y`",
     "VIA": "pass these positions during the next MOVE, in this order, without stopping",
-    "TOUCH": "end the next motion when a finger touches something: 1 is the finger that lies in the direction of "
-    "angle O, 2 the other finger, 3 either finger; error 25 if the motion ends without a touch",
+    "TOUCH": (
+        "end the next motion when a finger touches something: 1 is the finger on the side to which angle O points, "
+        "2 the other finger, 3 either finger; error 25 if the motion ends without a touch"
+    ),
     "TORQUE": "end the next motion when the screwdriver turns with this torque (oz-in); error 24 if the torque is "
     "never reached",
     "RESTORE": "shift the goal of the preceding MOVE by a saved difference; with LEVEL, only horizontally",
