@@ -48,8 +48,8 @@ def chess(
 ) -> int:
     """Find chess pieces along three lines, measure their heights with a light beam, and sort them, as in the paper.
 
-    `plans/chess.mal` runs on two simulated gantries, in a world with errors. A referee then checks that each
-    piece stands on the line for its height, within 5 mm and 3 degrees, and that each measured height is right
+    `plans/chess.mal` runs on two simulated gantries, in a world with errors. A referee then checks that each piece
+    stands on the line for pieces of its height, within 5 mm and 3 degrees, and that each measured height is right
     within .6 mm.
 
     Exit code 0: right; 1: the program stopped before its end; 3: the program ended, but the referee disagrees; 2:
