@@ -28,7 +28,8 @@ CODES: Final[dict[str, Mistake]] = {
         cure="set the flag with SET in another task, or correct its name", severity="warning",
     ),
     "for-without-next": Mistake(
-        meaning="a FOR has no later NEXT with the same variable in the same task", example="10 FOR I = 1 TO 4\n20 PRINT I",
+        meaning="a FOR has no later NEXT with the same variable in the same task",
+        example="10 FOR I = 1 TO 4\n20 PRINT I",
         cure="write NEXT after the lines to repeat",
     ),
     "line-missing": Mistake(
