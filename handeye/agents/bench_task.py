@@ -75,8 +75,8 @@ class _File(Case, frozen=True, forbid_unknown_fields=True, kw_only=True):
     kept: str = ""  # regular expression for lines that a solution must keep, in their order
     orders: bool = False  # the program is judged in every order of its tasks, and not in worlds
     variants: list[dict[str, dict[str, Any] | str]] = []
-    """Variants of the case, each as the fields that it changes. The number of a world's variant is the seed of the
-    world modulo the number of variants.
+    """Variants of the case. Each variant holds the fields that it changes. The world with seed n has variant n modulo
+    the number of variants.
     """
     derived: dict[str, Derived] = {}
 
