@@ -73,7 +73,7 @@ CODES: Final[dict[str, Mistake]] = {
     ),
     "return-without-gosub": Mistake(
         meaning="a task has RETURN but no GOSUB", example="10 RETURN",
-        cure="call these lines with GOSUB, or replace RETURN with END",
+        cure="call the lines before RETURN with GOSUB, or replace RETURN with END",
     ),
     "stray-character": Mistake(
         meaning="a character has no meaning in MAL", example="10 A = 5 % 2",
