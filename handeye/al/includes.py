@@ -22,8 +22,8 @@ MAX_FILES: Final = 100  # limit on required files; their total size is limited t
 _LINE: Final = re.compile(rf"^.*\b{REQUIRE}\b.*$", re.ASCII | re.IGNORECASE | re.MULTILINE)
 
 Read = Callable[[str], str]
-"""Function that returns the text of a file. The argument is the key of the file: the path of the file from the folder
-of the main text. Raises InvalidInput if the file is unreadable.
+"""Function that returns the text of a file. The argument is the key of the file: its path relative to the folder of
+the main text. Raises InvalidInput if the file is unreadable.
 """
 
 
