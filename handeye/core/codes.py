@@ -61,7 +61,8 @@ CODES: Final[dict[str, Code]] = {
         "LOOK BEFORE\nLOOK AFTER\nINSPECT BASE BEFORE AFTER",
     ),
     "count-begun-anew": _warning(
-        "an ASSIGN is inside the loop that counts down its counter, so every round starts the count again",
+        "a loop that counts down a counter also contains an ASSIGN of this counter, so every round starts the "
+        "count again",
         "L: ASSIGN N 2\nMOVE T\nSOJG N L",
     ),
     "empty-program": _error("the program has no instructions", "; nothing"),
