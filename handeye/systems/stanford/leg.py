@@ -200,7 +200,7 @@ class PlanLegs(LegSystem):
         return found + [
             Lack(
                 step.line,
-                f"the program may continue in the middle of the stage {quoted(program.stages[there.stage])}",
+                f"this step can lead into the middle of the stage {quoted(program.stages[there.stage])}",
             )
             for step in steps
             for there in (program.steps[way] for way in step.ways if way is not None and way not in numbers)
