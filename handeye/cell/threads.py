@@ -72,8 +72,8 @@ class Thread(Record, frozen=True, kw_only=True):
     crossed: bool = False  # it has cut a thread of its own
     scarred: bool = False  # a screw has been crossed in it, now or before
     clamp: float = 0.0
-    """Force (N) of the head of the screw on the part beneath, from the time when the screw was last turned, smoothed
-    over a few ticks.
+    """Force (N) with which the head of the screw pressed on the part beneath when the screw was last turned. The force
+    is smoothed over a few ticks.
     """
 
 
