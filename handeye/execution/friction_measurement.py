@@ -106,8 +106,8 @@ def _check_weighed(arm: ArmModel, links: Array) -> None:
     if abs(links[doubted] - 1) > PLAUSIBLE:
         joint = arm.joints[doubted].name
         raise FrictionUnknown(
-            f"the links could not be weighed: the measurement makes the link of the {joint} {links[doubted]:.2f} "
-            "times as heavy as in its drawing, so a drive does not give its commanded torque"
+            f"the links could not be weighed: according to the measurement, the link of the {joint} is "
+            f"{links[doubted]:.2f} times as heavy as in its drawing, so a drive does not give its commanded torque"
         )
 
 

@@ -209,7 +209,7 @@ class ExecutionState(SystemState, kw_only=True):
     undoing: ReversalOrder | None = None  # the reversal in progress
     lets_go: Natural | None = None
     """Index of the step in which the hand picked up the screw that has just been turned out. When this step is
-    reversed, the hand leaves the screw where it picked it up.
+    reversed, the hand leaves the screw at the place where it picked the screw up.
     """
     held: float | None = None
     """Gap (m) at which the hand holds an object during a reversal. None if the hand holds no object, or after the
