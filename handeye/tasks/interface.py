@@ -57,7 +57,7 @@ class ExportedScene(Record, frozen=True, kw_only=True):
     spec: mujoco.MjSpec
     about: str  # Markdown: the names in the scene, and how the scene differs from the cell
     parts: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
-    """Names of the bodies that can be exported separately. The key is the name of the whole that the bodies form."""
+    """Groups of bodies that can be exported separately: the name of each group, and the names of its bodies."""
     densities: Mapping[str, float] = field(default_factory=dict)
     """Density (kg/m3) of each solid that consists of one metal. The keys are the names of the solids."""
 

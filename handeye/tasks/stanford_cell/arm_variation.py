@@ -186,8 +186,8 @@ def hand() -> Iterator[Quantity]:
             "ounces, and suggest 2 oz for a simulation.",
             nominal=2.0, least=0.0),
         group("hand.lamp", {axis: Normal(0.03) for axis in "xyz"}, "in",
-            "Deviation of the lamp's position in the hand from its position in the drawing, which the calibration "
-            "of the camera uses.",
+            "Deviation of the lamp's position in the hand from its position in the drawing. The calibration of the "
+            "camera uses the position in the drawing.",
             unsourced="the lamp is screwed on by hand and set with a steel rule, which has divisions of 1/64 in. "
             "Bound: 1/16 in, two sigma."),
     )  # fmt: skip
