@@ -65,7 +65,7 @@ trials gasket = trials:gasket_vision_trials: Inspect gaskets by camera: in place
 trials chaos = trials:chaos_trials: Chaos test: random faults, crashes, interruptions and operator answers; each failure is reduced to one command that repeats it.
 trials mutants = mutants:mutant_trials: Make mutants of a program, each with one check taken away or weakened. Does the proof refuse each mutant? If not, does another check catch the faults for which the changed check was meant?
 trials record = datasets:record: Record runs in many worlds, each with its trace in a folder of its own: for data sets and reports.
-trials rare = rare:rare_trials: Estimate how rarely a program stops, and how rarely it fails silently, by subset simulation.
+trials rare = rare:rare_trials: Estimate, by subset simulation, how rarely a program stops, and how rarely it fails silently.
 trials worst = rare:worst_trials: Find the failing worlds whose errors are smallest, and the quantities that make the program fail.
 env: Gymnasium environments of the cell, for learned policies; need the extra `env` (gymnasium).
 env list = environments:environments: List the Gymnasium environments: their ids, jobs and time limits.

@@ -209,7 +209,7 @@ ANY_SAMPLE: Final = SampleOptions()
 
 
 def rare_trials(*, options: SampleOptions = ANY_SAMPLE) -> int:
-    """Estimate how rarely a program stops, and how rarely it fails silently, by subset simulation.
+    """Estimate, by subset simulation, how rarely a program stops, and how rarely it fails silently.
 
     The worlds of the first level are made from seeds. From each level, the search takes the tenth of the worlds in
     which the program comes closest to failing. The next level is a sample of worlds in which the program comes at
