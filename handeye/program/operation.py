@@ -17,8 +17,8 @@ A target is a position or a part. `goal` is the goal of the last Move, and `trav
 Family = Literal["motion", "hand", "sight", "test", "search", "other"]
 Device = Literal["hand", "screwdriver", "camera"]
 Fields = Mapping[Kind, tuple[str, ...]]
-"""Fields of an operation whose entries are names of values. The key is the kind of the values. A kind has an empty
-tuple if it has only one value, and this value has no name.
+"""For each kind of values, the fields of an operation that hold names of such values. The tuple is empty for a kind
+that has only one value, because this value has no name.
 """
 
 
