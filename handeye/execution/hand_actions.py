@@ -63,8 +63,8 @@ def _to_gap(run: ExecutionContext, goal: float) -> None:
 
 
 def close(run: ExecutionContext, operation: Close) -> Fault | None:
-    """Close the fingers until both finger switches close, or until the gap is too small for any object. Then check
-    that the hand holds the expected object.
+    """Close the fingers until both finger switches show a touch, or until the gap is too small for any object. Then
+    check that the hand holds the expected object.
     """
     fault = _begin_to_close(run)
     if fault is not None:
