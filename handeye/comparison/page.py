@@ -120,7 +120,7 @@ def _own(name: str) -> str:
 
 
 SIDES: Final = (("A", "a"), ("B", "b"))
-"""The letter of each run, as the page shows it and as it stands in the names of HTML elements."""
+"""The letter of each run: as the page shows the letter, and as the names of HTML elements contain it."""
 _SPEEDS: Final = (1, 4, 16, 64)
 _USUAL: Final = 4
 
