@@ -40,8 +40,8 @@ is missing gives 3.7 to 5.6. A screw that stands 2.5 mm high gives .8 to 2.0, so
 behind the crank is not visible at all.
 """
 FAINT: Final = 3.3
-"""Least contrast (levels) of the earlier picture on the part: the difference between the 10th and the 90th percentile
-of the picture's levels.
+"""Least contrast (levels) that the part must have in the earlier picture: the difference between the 10th and the 90th
+percentile of the picture's levels.
 
 Limits in levels mean something only in pictures of about the usual contrast, which is 6.6 to 7.4 levels on a pump
 (five worlds). In such pictures, a missing head gives at least 3.7 levels. At a contrast of 2.9 levels, a missing head
