@@ -223,9 +223,9 @@ def chaos_trials(
     killed process. After each interruption, the run resumes from disk. A simulated operator answers each call: it
     retries, skips, proceeds or aborts. The same schedule then runs again without its interruptions.
 
-    The checks: the program never reports success with a wrong pump (`silent`); trace, events and state are the same to
-    the byte as without interruptions (`resume`); the brakes are on after every stop (`brakes`); the trace can be read
-    and says what happened (`trace`); nothing is lost on disk (`disk`); and no exception is raised (`error`). If a
+    There are six checks. `silent`: the program never reports success with a wrong pump. `resume`: trace, events and
+    state are the same to the byte as without interruptions. `brakes`: the brakes are on after every stop. `trace`: the
+    trace can be read and says what happened. `disk`: nothing is lost on disk. `error`: no exception is raised. If a
     schedule fails, the trial removes its elements one by one, and keeps only those without which the schedule does not
     fail. The trial then prints this shortest failing schedule as a command. If a fault spoiled a part of the pump only
     after the program's last look at this part, the schedule is `unseen` instead of silent. Before the schedules, the
