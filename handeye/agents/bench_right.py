@@ -24,7 +24,7 @@ _HEARD: Final = "heard"  # the mechanism that keeps the lines that a program pri
 
 
 class Body(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """Where a body must be when the program has ended."""
+    """The required place of a body when the program has ended."""
 
     name: str
     frame: str = ""  # body from which the place is measured; empty: the world
@@ -90,7 +90,7 @@ class Measured(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=
 
 
 class Right(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """What a correct program does in a world."""
+    """The behaviour of a correct program in a world."""
 
     stops: str = ""
     """If the work is impossible: a regular expression for the message with which a right program stops."""

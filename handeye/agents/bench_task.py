@@ -40,7 +40,7 @@ Tier = Literal["macros", "language", "bare", "repair"]
 
 
 class Worlds(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """How the worlds of a task differ from usual worlds, in the form of the options of `handeye.World`."""
+    """The differences between a task's worlds and usual worlds. The fields are the options of `handeye.World`."""
 
     level: Level = "nominal"
     without: list[str] = []
