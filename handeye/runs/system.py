@@ -1,5 +1,5 @@
-"""Defines the interfaces of a system in `handeye/systems`: `System`, and `RunningSystem` for the system during a
-run, which can be stepped, saved and restored.
+"""Defines the interfaces of a system in `handeye/systems`: `System`, and `RunningSystem`. A running system is a system
+during a run; it can be stepped, saved and restored.
 
 A system is found by its entry (`handeye/core/entries.py`), and is loaded when a run needs it.
 """
@@ -49,7 +49,9 @@ class StepFacts(Protocol):
 
     @property
     def file(self) -> str:
-        """Name of the required file that contains the step; empty for the main text."""
+        """Name of the file that contains the step, if the program requires this file; empty if the step is in the
+        program's own text.
+        """
 
     @property
     def line(self) -> int:
@@ -77,7 +79,7 @@ class StepFacts(Protocol):
 
     @property
     def place(self) -> str:
-        """The line of the step in the form in which messages give it: `12`, or `pins.al:12`."""
+        """The step's line as messages write it: `12`, or `pins.al:12`."""
 
     @property
     def examines(self) -> str | None:
@@ -121,8 +123,8 @@ class Listing(Protocol):
 
     @property
     def numbered(self) -> Mapping[int, str]:
-        """Lines of the text, by the numbers that the text itself gives them. The mapping is empty if lines are counted
-        from 1.
+        """Lines of the text. Each key is the number that the text itself gives to the line. The mapping is empty if
+        lines are counted from 1.
         """
 
     @property
@@ -139,7 +141,7 @@ class Listing(Protocol):
 
     @property
     def errors(self) -> Collection[int]:
-        """Numbers of the errors that steps may raise; empty if steps raise none."""
+        """Numbers of the errors that steps may raise; an empty collection if steps raise no errors."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -155,12 +157,12 @@ class Settable:
 
 
 class RunningSystem(Protocol):
-    """A system during a run, which can be stepped, saved and restored."""
+    """A system during a run. A running system can be stepped, saved and restored."""
 
     @property
     @abstractmethod
     def state(self) -> SystemState:
-        """The complete state of the system. The system changes this record in place."""
+        """The complete state of the system. The system changes its state in place."""
 
     @property
     def cell(self) -> SnapshotCell | None:
@@ -173,7 +175,9 @@ class RunningSystem(Protocol):
 
     @property
     def channels(self) -> tuple[Channel, ...]:
-        """Channels that are recorded in each servo period in addition to joints and hand."""
+        """The channels that are recorded in each servo period. The joints and the hand are always recorded, and are
+        not listed here.
+        """
         return ()
 
     @property
@@ -210,8 +214,8 @@ class RunningSystem(Protocol):
         """
 
     def halt(self) -> None:
-        """Bring the machine to rest in a safe state, for example with its brakes on, because the run cannot continue.
-        A system without such a state does nothing.
+        """The run cannot continue: bring the machine to rest in a safe state, for example with its brakes on. A system
+        that has no safe state does nothing.
         """
         return
 
@@ -226,7 +230,7 @@ class RunningSystem(Protocol):
         return ()
 
     def reverse(self, undoing: ReversalOrder) -> None:
-        """Let each following step undo one executed step, the last one first. Raises InvalidInput if no
+        """From now on, each step undoes the last executed step that is not yet undone. Raises InvalidInput if no
         executed step is left."""
 
     @abstractmethod
