@@ -109,7 +109,7 @@ def _chains(graph: Graph, *, top: bool) -> list[_Chain]:
 
 
 def _is_link_behind(graph: Graph, id: int) -> bool:
-    """Return True if a link leads from a node, possibly through bloops, to a step."""
+    """Follow the bloops that begin at node `id`. Return True if a link leads out of one of them."""
     while graph[id].type == "bloop":
         if graph[id].links:
             return True
