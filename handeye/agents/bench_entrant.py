@@ -28,7 +28,7 @@ class Entrant:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Effort:
-    """The rounds and the wall-clock time that an entrant spent on a task. The wall-clock time differs from run to run."""
+    """The rounds and the wall-clock time that an entrant needed for a task. This time differs from run to run."""
 
     rounds: int = 0
     wall_s: float = 0.0
@@ -80,9 +80,9 @@ def verdicts(
     call: Call,
     tell: Callable[[Verdict], None] = lambda _: None,
 ) -> list[Verdict]:
-    """Judge the solution in a folder, in one world for each of the seeds. A solution whose concurrent tasks may run in
-    any order is judged only once, in all these orders. A solution that cannot be run counts as stopped in each of the
-    worlds.
+    """Judge the solution in a folder, in one world for each of the seeds. If a solution must work in every order of
+    its concurrent tasks, it is judged only once, in all these orders. A solution that cannot be run counts as stopped
+    in each of the worlds.
     """
     try:
         if task.file.orders:
