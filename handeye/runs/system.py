@@ -239,12 +239,12 @@ class RunningSystem(Protocol):
 
     @property
     def context(self) -> ExecutionContext | None:
-        """The context in which a plan of motions is executed; None if the system does not execute such plans."""
+        """The context in which a plan of motions is executed; None if the system does not execute plans of motions."""
         return None
 
     @property
     def arm_cell(self) -> SimulatedCell | None:
-        """The cell in which a plan of motions is executed; None if the system does not execute such plans."""
+        """The cell in which a plan of motions is executed; None if the system does not execute plans of motions."""
         return None
 
     @property
@@ -258,26 +258,25 @@ class RunningSystem(Protocol):
 
     @property
     def just_found(self) -> tuple[str, Sequence[Mark]]:
-        """The name of the picture in which the present step has found something, and marks for what the step
-        found. The name is empty if the step found nothing."""
+        """The name of the picture that the present step searched, and a mark for each object that it found. The name
+        is empty if the step found nothing.
+        """
         return "", ()
 
     def built(self) -> Findings:
-        """Return the findings that the referee made on the finished work before the arm undid it. The result is empty
+        """Return the referee's findings on the finished work, from before the arm undid the work. The result is empty
         if the work was not undone, or was not judged.
         """
         return {}
 
     @property
     def legs(self) -> Sequence[tuple[str, str]]:
-        """The system and the stage of each leg of a relay, in order; empty for any other run."""
+        """The system and the stage of each leg, in order, if the run is a relay; an empty sequence for other runs."""
         return ()
 
     @property
     def figures(self) -> Mapping[str, float]:
-        """The system's own figures for the result of the run. The result shows these in addition to the figures that
-        every system has. By default, there are no such figures.
-        """
+        """Figures that only this system adds to the result of the run. By default, a system adds no figures."""
         return {}
 
     def remembered(self) -> Findings:
@@ -286,24 +285,24 @@ class RunningSystem(Protocol):
 
     @abstractmethod
     def restore(self, state: SystemState) -> None:
-        """Continue from a copy of a state. The caller must first restore the cell to its state at the moment of
-        `state`. Raises InvalidInput if the state does not fit the plan.
+        """Continue from a copy of a state. The caller must first restore the cell as it was when `state` was captured.
+        Raises InvalidInput if the state does not fit the plan.
         """
 
     @property
     def shown(self) -> Mapping[str, Any]:
-        """The state of the system in a form for display."""
+        """The state of the system, as users see it."""
         shown: dict[str, Any] = msgspec.to_builtins(self.state, enc_hook=np.ndarray.tolist)
         return shown
 
     def type_line(self, text: str, task: str) -> None:
-        """Pass a line typed at the console to a task, and emit `LineTyped` before the line takes effect. Raises
-        InvalidInput, and changes nothing, if the system has no console or no such task.
+        """Emit `LineTyped`, then pass a line typed at the console to a task. Raises InvalidInput, and changes nothing,
+        if the system has no console, or no task with the name `task`.
         """
         raise Refused("this system has no console to type at")
 
     def interject(self, text: str, task: str) -> None:
-        """Execute a typed line in the middle of a step, and emit `LineTyped` before the line takes effect. If the line
+        """Emit `LineTyped`, then execute a typed line in the middle of a step. If the line
         cannot be executed there, raises InvalidInput and changes nothing.
         """
         raise Refused("a line can be typed only while the run is paused; `pause` pauses it")
@@ -321,12 +320,15 @@ class RunningSystem(Protocol):
         return None
 
     def settables(self) -> Mapping[str, Settable]:
-        """Return the values that a person can set, by kind; none by default."""
+        """Return the values that a person can set. The keys are the kinds of values. By default, a person can set no
+        values.
+        """
         return {}
 
     def set_value(self, what: str, name: str, value: tuple[float, ...]) -> None:
-        """Set a value in SI units. Raises InvalidInput if there is no object with that name, or if the value
-        does not fit the object."""
+        """Set a value in SI units. `what` is the kind of the value, and `name` the object that has the value. Raises
+        InvalidInput if no object has this name, or if the value does not fit the object.
+        """
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -367,8 +369,8 @@ class LiveNews(ABC):
 
     @abstractmethod
     def since(self, seen: object) -> tuple[object, str] | None:
-        """Return a mark of the present moment, and a message with everything that is new since the mark `seen`. Pass
-        None at the first call. Returns None if nothing is new.
+        """Return a mark that stands for the present moment, and a message with everything that is new. `seen` is the
+        mark from the call before, or None at the first call. Returns None if nothing is new.
         """
 
 
@@ -413,13 +415,14 @@ class System(ABC):
 
     @abstractmethod
     def build(self, setup: Setup, around: RunCallbacks) -> RunningSystem:
-        """Build the running system, without making a step yet. Raises InvalidInput if the system cannot be
+        """Build the running system, but do not execute a step. Raises InvalidInput if the system cannot be
         built on this computer.
         """
 
     def machine(self, plan: Any) -> tuple[str, str]:
-        """Return the name and digest of the machine for which a plan is made; both are empty if there is no
-        such machine."""
+        """Return the name and digest of the machine for which a plan is made; both are empty if the plan is made for
+        no particular machine.
+        """
         return "", ""
 
     def check(self, setup: Setup) -> None:
@@ -428,15 +431,15 @@ class System(ABC):
             raise BadFile(f"this is not a plan of {self.entry.title}")
 
     def own_plan(self, task: str) -> Any:
-        """Return the default plan for a task. Raises InvalidInput if the task has no such plan."""
+        """Return the default plan for a task. Raises InvalidInput if the task has no default plan."""
         raise refusal(self.name, "plans")
 
     def executed(self, plan: Any, state: Any) -> Sequence[ExecutedStep]:
-        """Return the executed steps of a plan that have not been undone, according to a state."""
+        """Return the steps of a plan that, according to a state, were executed and have not been undone."""
         return ()
 
     def order(self, plan: Any, state: Any, undoing: ReversalOrder) -> None:
-        """Change a state so that a run that continues from the state first undoes executed steps. Raises
+        """Write an order to undo into a state. A run that continues from this state first undoes executed steps. Raises
         InvalidInput if no executed step is left.
         """
         raise refusal(self.name, "undo")
@@ -467,17 +470,17 @@ class System(ABC):
         return go()
 
     def files(self, runner: Runner, pause: Pause, result: Any) -> Mapping[str, bytes]:
-        """Return the contents of further files for the run's folder. The keys are the names that the system's entry
-        lists. `result` is the run's `results.result.Result`.
+        """Return the contents of the files that this system adds to the run's folder. The keys are the names that the
+        system's entry lists. `result` is the run's `results.result.Result`.
         """
         return {}
 
     def page(self, folder: Path) -> bytes | None:
-        """Make the report of a finished run from the system's own files in the run's folder. Return None if the
-        general report is used.
+        """Make the report of a finished run from the system's own files in the run's folder. Return None if this
+        system's runs use the report that is the same for all systems.
         """
         return None
 
     def parts(self, folder: Path) -> Sequence[PagePart]:
-        """Return the sections, specific to this system, that are added to the report of the run in a folder."""
+        """Return sections for the report of the run in `folder` that only this system's reports have."""
         return ()

@@ -1,7 +1,7 @@
 """Keeps the ten newest unnamed runs, to which the user gave no name, in the folder `runs` of the current folder.
 Each folder is named after the start time of its run.
 
-The environment variable HANDEYE_RUNS names another folder; if it is empty, no run is kept without `--out`.
+The environment variable HANDEYE_RUNS names another folder. If the variable is empty, a run is kept only with `--out`.
 """
 
 import os
