@@ -92,7 +92,7 @@ class TrigProgram:
         return TOP if id == NONE else id
 
     def begin(self) -> None:
-        """Reset positions, counts and trail, as is done before every run from the top."""
+        """Reset positions, counts and trail before a run from the top."""
         for position in self.positions.values():
             position.data = position.init
         for node in self.graph.nodes.values():
