@@ -122,8 +122,8 @@ def _runs(home: Path) -> Iterator[Path]:
 
 
 def _unnamed(home: Path) -> Iterator[Path]:
-    """Yield those folders of unnamed runs that contain nothing but the run. A run in a renamed folder counts as
-    named.
+    """Yield the folders of unnamed runs, without the folders that also contain other files. A run in a renamed folder
+    counts as named.
     """
     for path in home.iterdir():
         mark = path / MARK
