@@ -1,6 +1,4 @@
-"""Scripts that consist of several files: finds the texts that a script requires, directly or through other required
-texts.
-"""
+"""Reads scripts that consist of several files. A script requires texts directly, or through other required texts."""
 
 import posixpath
 import re
@@ -59,7 +57,9 @@ def sewn(source: Source, read: Read) -> Source:
 
 
 def sewn_of(source: Source, files: Mapping[str, str]) -> Source:
-    """Join a text with the texts that it requires. The required texts are taken only from `files`, by key."""
+    """Join a text with the texts that it requires. The required texts are taken only from `files`, which maps their
+    keys to their contents.
+    """
 
     def read(key: str) -> str:
         if key not in files:

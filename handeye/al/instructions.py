@@ -1,7 +1,7 @@
 """The table of instructions, from which the parser, the checks, the formatter and the manual are derived.
 
-Each word has the document in which it was found; `docs/sources.md` describes these documents, and says which of them
-are known only from memory. The words without a document are additions of handeye.
+For each word, the table names the document in which the word was found; `docs/sources.md` describes these documents,
+and says which of them are known only from memory. The words without a document are additions of handeye.
 """
 
 from typing import Final
