@@ -1,7 +1,7 @@
 """The jobs of the environments: where each episode starts, and what the referee requires at its end.
 
-This module has the jobs of tasks with planned programs. Systems without planned programs name their jobs in their
-entries.
+This module has the jobs of tasks with planned programs. A system without planned programs names its jobs in its
+`Entry`.
 """
 
 from collections.abc import Mapping
@@ -30,7 +30,7 @@ ALWAYS: Final = (
 
 
 class Job(Record, frozen=True, kw_only=True):
-    """One job. An episode starts in the state in which the task's own program begins a stage of its work."""
+    """One job. An episode starts in the state in which the task's own program begins one of its stages."""
 
     id: str  # name of the environment
     meaning: str  # sentence that says what has to be done
