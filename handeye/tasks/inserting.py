@@ -40,14 +40,15 @@ class InsertionTask(Task):
 
     @abstractmethod
     def caught(self, clearance: float, chamfer: float) -> float:
-        """Return the greatest position error (m) at which the pin still enters a hole. The hole has this clearance (m)
-        and chamfer (m).
+        """Return the greatest position error (m) at which the pin still enters a hole with the given clearance (m) and
+        chamfer (m).
         """
 
     @abstractmethod
     def hole(self, clearance: float, chamfer: float) -> dict[str, float]:
-        """Return the quantities of a world in which the hole has this clearance (m) and chamfer (m) and lies
-        exactly at its taught position. All values are in SI units."""
+        """Return the quantities of a world in which the hole lies exactly at its taught position and has the given
+        clearance (m) and chamfer (m). All values are in SI units.
+        """
 
     @abstractmethod
     def off(self, truth: Truth, error: tuple[float, float]) -> dict[str, float]:

@@ -1,4 +1,6 @@
-"""TRIG as a system: what a TRIG run can do, in which words a run is described, and which files a run leaves."""
+"""TRIG as a system of handeye. This module defines what a TRIG run can do, how messages describe a run, and which
+files a run leaves.
+"""
 
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
