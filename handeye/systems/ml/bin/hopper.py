@@ -1,4 +1,4 @@
-"""A smooth hopper with a flat middle, from which bars are taken, and two boxes beside it."""
+"""The bin: a smooth hopper with a flat middle. The hand takes bars out of it, and puts them into two boxes beside it."""
 
 from collections.abc import Sequence
 from itertools import product

@@ -87,7 +87,7 @@ class Poured(Record, frozen=True, kw_only=True):
 
 
 class Pile(Mechanism[Poured]):
-    """Remembers the true qualities of the parts that were poured into the bin. Only the referee sees them."""
+    """Remembers the true qualities of the parts that were poured into the bin. Only the referee sees these qualities."""
 
     name, kind = POURED, Poured
 
