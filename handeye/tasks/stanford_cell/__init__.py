@@ -1,2 +1,3 @@
-"""Parts common to all cells with the Stanford arm: the arm with its true errors, dimensions, and shapes of
-metal parts."""
+"""What all cells with the Stanford arm have in common: the dimensions, the shapes of metal parts, and the arm with the
+errors of its world.
+"""

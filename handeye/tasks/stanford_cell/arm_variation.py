@@ -1,4 +1,4 @@
-"""The quantities in which the Stanford arm and its hand differ from the controller's model of them. Joints are
+"""The quantities in which the simulated Stanford arm and its hand differ from the controller's model. Joints are
 numbered from 1.
 """
 
