@@ -1,15 +1,15 @@
 """Finds executed steps that left the cell as it was. One lift of the hand reverses all these steps.
 
-Such steps are of two kinds: rounds of a loop, and touches. When a program has jumped back to an earlier step, the cell
-is assumed to be in the same state as after that step if four conditions hold. First, no stage began and the operator
-was not called since that step. Second, the hand holds the same object as after that step. Third, every object was put
-down at the place where it was taken up, or taken up at the place where it was put down. Fourth, every screw that was
-driven in was backed out. Rounds that carry objects to another place do not meet the conditions and are reversed step
-by step.
+Such steps are of two kinds: rounds of a loop, and touches. When a program jumps back to an earlier step, a round of a
+loop is complete. The round is assumed to have left the cell as it was after that step if four conditions hold. First,
+since that step, no stage began, and the program did not call the operator. Second, the hand holds the same object as
+after that step. Third, every object was put down at the place where it was taken up, or taken up at the place where it
+was put down. Fourth, every screw that was driven in was backed out. Rounds that carry objects to another place do not
+meet the conditions and are reversed step by step.
 
 A touch is a motion of an empty hand that ended on contact, together with the motion that left the object. If a touch
-were reversed step by step, the hand would touch the object a second time. The object may have been pushed after the
-touch. A finger that moved past the side of the object before would then descend on the object's edge.
+were reversed step by step, the hand would touch the object a second time. After the first touch, the object may have
+been pushed. A finger that moved down beside the object at the first touch would then hit the object's edge.
 """
 
 from collections.abc import Callable, Iterator, Sequence
