@@ -152,8 +152,9 @@ def _named(geom: mujoco.MjsGeom, name: str, material: str | None) -> mujoco.MjsG
 
 
 def body_inertia(body: mujoco.MjsBody, mass: float, centre: Vector, moments: Vector) -> None:
-    """Set the mass (kg), centre of mass (m) and principal moments of inertia (kg m2) of a body, instead of
-    computing them from its geoms."""
+    """Set the mass (kg), centre of mass (m) and principal moments of inertia (kg m2) of a body. MuJoCo then does not
+    compute these values from the body's geoms.
+    """
     body.explicitinertial = True
     body.mass = mass
     body.ipos[:] = centre

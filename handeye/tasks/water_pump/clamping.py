@@ -9,9 +9,9 @@ explicitly.
 
 *Clamping.* Two seated screws press gasket and top on the base, and friction holds gasket and top in place. From then
 on, welds hold the two layers, and the contacts between the layers are switched off, because these contacts take most
-of the stack's computing time. The contacts are switched on again in three cases: if a hand, a shank or any other body
-pushes a layer sideways with more than the friction force; if such a body lifts a layer with more than the clamping
-force; or if fewer than two screws clamp the layers.
+of the stack's computing time. The contacts are switched on again if fewer than two screws clamp the layers. They are
+also switched on again if another body, for example the hand or a screw's shank, pushes a layer too hard: sideways with
+more than the friction force, or upwards with more than the clamping force.
 """
 
 from typing import Final
