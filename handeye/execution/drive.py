@@ -34,7 +34,9 @@ class ArmDrive(ServoLoop):
         self._pass(self.floating(seconds))
 
     def exert(self, torque: Array) -> None:
-        """Apply joint torques, shape (n,), for one servo period. The final position of the arm becomes the set-point."""
+        """Apply joint torques, shape (n,), for one servo period. The final position of the arm becomes the
+        set-point.
+        """
         self._pass(self.exerting(torque))
 
     def follow(
