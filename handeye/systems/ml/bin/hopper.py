@@ -1,4 +1,4 @@
-"""The bin is a smooth hopper with a flat middle. The hand takes bars out of it and puts them into two boxes beside it."""
+"""The bin is a smooth hopper with a flat middle. The hand takes bars out of it and puts them into two boxes."""
 
 from collections.abc import Sequence
 from itertools import product
