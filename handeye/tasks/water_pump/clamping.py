@@ -147,11 +147,15 @@ class Clamping(Mechanism[ClampingState]):
         model.geom_conaffinity[self._lands] = 0
 
     def release(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
-        """Open the welds and restore the contacts of the layers, in this model or in a copy of it."""
+        """Open the welds and restore the contacts of the layers in `model` and `data`. `model` is the model of the
+        cell or a copy of this model.
+        """
         data.eq_active[self._welds] = 0
         model.geom_contype[self._lands], model.geom_conaffinity[self._lands] = self._bits
 
 
 def lands_of(drawn: mujoco.MjModel) -> NDArray[np.intp]:
-    """Return the indices of the geoms that form the lands of gasket and top. Nothing may be clamped in the scene."""
+    """Return the indices of the geoms that form the lands of gasket and top. The layers of the scene must not be
+    clamped.
+    """
     return np.flatnonzero(np.isin(drawn.geom_contype, _LANDS))

@@ -82,7 +82,7 @@ DeviceFault = PumpFault[Lines]
 
 @cache
 def device_faults() -> tuple[DeviceFault, ...]:
-    """Return all faults of devices, in the order in which they are listed."""
+    """Return all faults of devices, in the order of the catalogue."""
     return (*_switches(), *_hand(), *_force(), *_joints(), *_screwdriver(), *_sight())
 
 

@@ -103,7 +103,7 @@ def _put_out(scene: Scene, _: MishapState) -> bool:
 
 @cache
 def mishap_faults() -> tuple[MishapFault, ...]:
-    """Return all mishaps, in the order in which they are listed."""
+    """Return all mishaps, in the order of the catalogue."""
     return (*_light_and_pushes(), *_base(), *_losses(), *faults_of_finished_work())
 
 
@@ -165,7 +165,7 @@ def _losses() -> Iterator[MishapFault]:
 
 
 def due(faults: Sequence[Fault]) -> list[tuple[Fault, Mishap]]:
-    """Return the mishaps among a run's faults, each with its fault."""
+    """Return those faults of a run that are mishaps, each with the mishap that it causes."""
     return [(fault, make(fault.value or 0.0)) for fault, make in broken(mishap_faults(), faults)]
 
 

@@ -86,5 +86,7 @@ MishapFault = PumpFault[Callable[[float], Mishap]]
 
 
 def always(mishap: Mishap) -> Callable[[float], Mishap]:
-    """Return a function that ignores the size of a fault and returns this mishap, for a fault that has no size."""
+    """Return a function that returns `mishap`, whatever its argument is. The declaration of a fault without a size
+    needs this function.
+    """
     return lambda _: mishap
