@@ -1,10 +1,10 @@
 """The reverse path of a step, from the end of the step to its beginning, and the guards that stop the arm on this
 path.
 
-The arm is stopped by force that has built up in any direction since the reversal began, and by early contact of
-closing fingers. Closing fingers meet in the middle of the hand. If an object is not in the middle, one finger touches
-the object first, while the gap is still too wide. If the fingers closed on such an object, they would push the object
-to the middle, or push the arm, and the final gap would look right.
+The arm stops when the force on the hand has grown too much since the reversal began, in any direction. It also stops
+when a closing finger touches an object too early. Closing fingers meet in the middle of the hand. If an object is not
+in the middle, one finger touches the object first, while the gap is still too wide. If the fingers closed on such an
+object, they would push the object to the middle, or push the arm, and the final gap would look right.
 """
 
 from collections.abc import Callable
@@ -142,8 +142,8 @@ arm is not exact.
 
 
 def stands(run: ExecutionContext, way: RecordedPath, grasps: Callable[[ExecutedStep], bool]) -> bool:
-    """Return True if the resistance shows that the held object stands on a surface. This is the case if the path leads
-    to the place where the object was grasped, and the hand is nearly at this place.
+    """After a guard has stopped a reversal, return True if the held object must be standing on a surface. This is the
+    case if the path leads to the place where the object was grasped, and the hand has nearly reached this place.
 
     `grasps` returns True if a step grasps an object, or grips it more firmly.
     """

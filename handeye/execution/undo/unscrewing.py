@@ -125,9 +125,9 @@ def _course(run: ExecutionContext) -> Course:
 
 
 def taken_by(run: ExecutionContext, backwards: Iterable[int]) -> int | None:
-    """Return the index of the step in which the screwdriver took up the screw that a later step drives in. In this
-    step, the head of the screw exerted a force that ended the motion of the hand. It is the last such step before the
-    hand moved to the hole. Returns None if there is no such step.
+    """Return the index of the step in which the screwdriver took up the screw that a later step drives in. In that
+    step, the force of the screw's head on the screwdriver ended the motion of the hand. If several steps before the
+    move to the hole ended like this, the last of them is returned. Returns None if there is no such step.
 
     `backwards` gives the indices of steps, from the driving step backwards.
     """
