@@ -64,7 +64,7 @@ def checked(
 
 
 class _Check:
-    """Checks the lines of a program one by one. A check may use the other lines of the program, too."""
+    """Checks the lines of a program one by one. A check may also use the other lines of the program."""
 
     def __init__(self, lines: Mapping[int, Line], starts: list[tuple[int, Side]]) -> None:
         self._lines = lines
@@ -102,8 +102,8 @@ class _Check:
                 yield mistake("limits-empty", told, line.place(1))
 
     def motors(self, line: Line) -> Iterator[Diagnostic]:
-        """Check the motors and the constant goals of a line. If either arm may execute the line, the line has a
-        mistake only if it suits neither arm.
+        """Check the motors and the constant goals of a line. A line that both arms may execute has a mistake only if
+        neither arm can execute it.
         """
         sides = self._sides.get(line.number or 0) or _ARMS
         mistakes = [list(_motors(line, _ARMS[side])) for side in _ARMS if side in sides]
@@ -144,9 +144,7 @@ class _Check:
         )
 
     def pairs(self, line: Line) -> Iterator[Diagnostic]:
-        """Check that each end of a loop or subroutine has a statement that begins the loop or subroutine, and that
-        each loop has an end.
-        """
+        """Check that no statement ends a loop or a subroutine that nothing begins, and that each loop has an end."""
         code = line.statement.code
         if code in _PAIRS and _PAIRS[code] not in self._codes:
             yield mistake("M13", f"{code} has no {_PAIRS[code]} in this program", line.spans[0])
