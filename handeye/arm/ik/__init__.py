@@ -45,8 +45,8 @@ def solve(arm: ArmModel, X_WT: Pose, near: Array) -> IKResult:
     one nearest to `near`.
 
     The distance between configurations is the sum of the travel times of the joints. Joints that do not affect the
-    pose stay as in `near`, and held joints stay at their fixed positions. If a pose is out of reach only because
-    its numbers are rounded, the solution is the nearest one within the limits.
+    pose stay as in `near`, and held joints stay at their fixed positions. If the pose is out of reach only because its
+    numbers are rounded, the result is the configuration within the limits whose pose is nearest to `X_WT`.
     """
     found = _SOLVERS[arm.structure].solve(arm, X_WT, near)
     if found.q is not None:
