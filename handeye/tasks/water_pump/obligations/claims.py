@@ -82,8 +82,8 @@ class PumpClaims:
         )
 
     def tight(self, hole: int) -> Claim:
-        """Return the claim that, after all screws had gone into their threads, the screw at a hole was driven once
-        more, until the torque stop.
+        """Return the claim that the screw at a hole was tightened. After all screws were in their threads, this screw
+        was driven once more, and the torque stop ended the driving.
         """
         socket = self.places.socket(hole)
         driven = [self.threaded(each).phases[0].by for each in range(self.places.screws)]
