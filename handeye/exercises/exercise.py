@@ -138,7 +138,7 @@ class Exercise(ABC):
 
     @abstractmethod
     def broken_rules(self, given: Submission) -> list[str]:
-        """Return the rules that a program breaks, each as a sentence. The program has no errors."""
+        """Return the rules that a program breaks, each as a sentence. The program must be free of errors."""
 
     @abstractmethod
     def verdicts(self, given: Submission) -> list[Verdict]:
