@@ -304,7 +304,7 @@ class MlLeg(ToolLeg, RunningMl):
 
 
 def _given(plan: MlPlan) -> dict[str, int]:
-    """Return the variables that a program expects from the record, by name."""
+    """Return the variables that receive heights from the hand-over record. The keys are the names of the heights."""
     return {
         found[1]: int(found[2])
         for line in plan.text.splitlines()
@@ -313,7 +313,7 @@ def _given(plan: MlPlan) -> dict[str, int]:
 
 
 def _taken(plan: MlPlan) -> dict[str, int]:
-    """Return the variables that a program hands over, by name."""
+    """Return the variables that a program hands over as heights. The keys are the names of the heights."""
     return {
         found[2]: int(found[1])
         for line in plan.text.splitlines()

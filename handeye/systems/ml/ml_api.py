@@ -43,7 +43,7 @@ class Ml:
             text: a program to be stored.
             outline: corners of an object that the wand can touch, each as (y, x) in .001 inch.
             stimuli: values that sensors have at certain times or while a motor is at certain positions.
-            senses: such values as texts, in the form of `handeye ml run --sense`: with `5=500@3:2750`, sensor 5 reads
+            senses: stimuli written as texts, as in `handeye ml run --sense`: with `5=500@3:2750`, sensor 5 reads
                 500 while motor 3 is at 2750 or farther away from 0.
             procedures: a dictionary from the names of commands, `UPROCA` to `UPROCD`, to the functions that these
                 commands call. Each function is called with the interpreter of this `Ml` and the values of the
