@@ -70,7 +70,7 @@ def branches(arm: ArmModel, X_WT: Pose, start: Array | None = None) -> tuple[Arr
 
 def singular(arm: ArmModel, q_start: Array, q: Array, V: Array) -> tuple[int, InLine] | None:
     """Among N configurations on a branch, find the first that is singular for the wanted twist of the hand. Returns
-    its index and the reason, or None if no configuration is singular.
+    the index of this configuration and the reason, or None if no configuration is singular.
 
     `V` are the twists at T in world axes, shape (N, 6), of a motion that begins at `q_start`.
     """
