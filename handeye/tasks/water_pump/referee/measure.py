@@ -80,8 +80,9 @@ def corner_height(measured: SettledState, layer: str, holes: int) -> float:
 
 
 def pins_away(measured: SettledState) -> float:
-    """Return the greatest distance of the middle of a pin's shoulder from the mouth of its hole in the base (m). A pin
-    may stand in any of the holes for pins, but each hole takes only one pin.
+    """Measure, for each pin, the distance (m) between the middle of its shoulder and the mouth of its hole in the
+    base, and return the greatest distance. A pin may stand in any of the holes for pins, but each hole takes only one
+    pin.
     """
     mouths = [
         measured.data.site(f"base_hole{int(hole)}").xpos
@@ -135,8 +136,8 @@ def loosening_torque(measured: SettledState, hole: int) -> float:
 
 
 def screw_deviation(measured: SettledState, screw: int, hole: int) -> float:
-    """Return by how much (m) a length or radius of a screw differs most from the design. The loose screw and the
-    carrier that replaces it in its thread are both measured.
+    """Return the greatest difference (m) between a length or radius of a screw and its value in the design. The loose
+    screw and the carrier that replaces it in its thread are both measured.
     """
     model, size = measured.model, dimensions()
     length, tip, head = size("screw.length"), size("screw.point_length"), size("screw.head_height")
@@ -197,7 +198,9 @@ def rotor_torque(measured: SettledState) -> float:
 
 
 def _alone(measured: SettledState) -> tuple[mujoco.MjModel, mujoco.MjData]:
-    """Return a copy of the cell in which only the rotor has friction, constraints, and contacts with solid shapes."""
+    """Return a copy of the cell in which nothing acts on the rotor except friction in its joint and contacts with
+    solid shapes.
+    """
     model, rotor = copy.deepcopy(measured.model), measured.model.body("rotor").id
     crank = model.geom_bodyid == rotor
     solid = (model.geom_contype | model.geom_conaffinity) != 0

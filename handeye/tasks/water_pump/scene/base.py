@@ -70,8 +70,9 @@ def _add_casting(shaper: Shaper, body: mujoco.MjsBody, d: Dimensions, holes: Seq
 
 
 def _in_wedge(angle: float, x: float, y: float, reach: float) -> bool:
-    """Return True if a hole at (x, y) from the ring's axis (m), with radius `reach` (m), cuts into the wedge at
-    `angle` (rad)."""
+    """Return True if a hole cuts into the wedge at `angle` (rad). The hole is at `x` and `y` from the axis of the ring
+    (m), and its radius is `reach` (m).
+    """
     away = abs(math.remainder(math.atan2(y, x) - angle, 2 * math.pi))
     return away < math.pi / _WEDGES + math.asin(min(1.0, reach / math.hypot(x, y)))
 
@@ -88,8 +89,8 @@ def _add_looks(shaper: Shaper, body: mujoco.MjsBody, screws: int) -> None:
 
 
 def _colour(holes: Sequence[Point], middles: Array, normals: Array) -> NDArray[np.str_]:
-    """Return the colour names of the base's surface: the face is machined, the insides of holes are dark because they
-    are oily and not machined, and the rest is cast.
+    """Return the names of the colours on the base's surface. The face has the colour of machined metal, and the rest
+    has the colour of cast metal. The insides of holes are dark, because they are oily and not machined.
     """
     d = dimensions()
     x2 = d("base.large_hole_2.x")

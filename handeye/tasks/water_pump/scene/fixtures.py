@@ -1,5 +1,6 @@
-"""Adds the fixtures on the table (blocks, stands and rack), each displaced from its nominal position by its
-error in the world."""
+"""Adds the fixtures on the table: blocks, stands and rack. Each fixture is displaced from its nominal position by its
+placement error in the world.
+"""
 
 from dataclasses import dataclass
 from typing import Final
