@@ -127,11 +127,11 @@ class Ml:
             self._machine.cycle()
 
     def read(self, table: str, line: int, word: int = 1) -> int:
-        """Return a word of a table, such as `read("MT", 3, 1)`. Raises MlError if there is no such word."""
+        """Return a word of a table, such as `read("MT", 3, 1)`. Raises MlError if the word does not exist."""
         return self._mos.level.read(table.upper(), line, word)
 
     def variable(self, number: int) -> int:
-        """Return the value of a variable. Raises MlError if there is no such variable."""
+        """Return the value of a variable. Raises MlError if no variable has this number."""
         return self._mos.variable(number)
 
     def position(self, motor: int) -> int:
@@ -157,9 +157,10 @@ class Ml:
             phase: moment of the contact within the period. 0 is just after a reading; a value near 1 is just before
                 the next reading.
 
-        Returns: when the limit was noticed (`noticed`, ms after the contact), how far the slide moved after the
-            contact (`way`, mm), the greatest force of both fingers (`force`, N), the force on a finger at the start of
-            the motion (`jolt`, N), and the `places` (mm), `goals` (mm) and `forces` (N) at the `times` (ms).
+        Returns: the touch. `noticed` is the time from the contact until the limit was noticed (ms). `way` is how far
+            the slide moved after the contact (mm). `force` is the greatest force of both fingers (N), and `jolt` the
+            force on a finger at the start of the motion (N). The touch also has the `places` (mm), `goals` (mm) and
+            `forces` (N) at the `times` (ms).
 
         Raises:
             BadArgument: a value is out of range.

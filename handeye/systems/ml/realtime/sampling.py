@@ -1,4 +1,4 @@
-"""Converts inputs to positions and readings, and compares them with limits."""
+"""Converts inputs to positions and readings, and compares the readings with limits."""
 
 from collections.abc import Sequence
 from typing import Final
