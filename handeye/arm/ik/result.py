@@ -48,7 +48,7 @@ moves the wrist by less than the greatest distance.
 
 def choose(arm: ArmModel, found: list[list[float]], near: list[float]) -> IKResult:
     """Of the solutions within the limits, choose the one that the arm reaches soonest from `near`. If all solutions
-    are beyond the limits, the result names the joint that prevents the solution least far beyond them.
+    are beyond the limits, the result describes the solution that is least far beyond them, and names its worst joint.
     """
     good = [q for q in found if all(map(_inside, arm.joints, q))]
     if good:
