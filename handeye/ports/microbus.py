@@ -72,7 +72,7 @@ class NoAnswer(BusFault):
 
 
 class StrayAnswer(BusFault):
-    """Raised if an answer was longer than the question had asked for."""
+    """Raised if an answer was longer than the answer to the question should be."""
 
     def __init__(self, number: int) -> None:
         super().__init__(f"STRAY {number}: a byte arrived that no question asked for")
