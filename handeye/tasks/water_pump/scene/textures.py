@@ -47,8 +47,10 @@ def _pixels() -> dict[str, NDArray[np.uint8]]:
 
 
 def _smooth(rng: np.random.Generator, along_x: float, along_y: float, size: int = _SIZE) -> Array:
-    """Return noise blurred with Gaussians of these standard deviations (pixels). The noise wraps around at the
-    edges and has unit variance. Frequencies that the blur removes are not computed."""
+    """Return noise that is blurred along x and y. The blur along each axis is Gaussian, with the standard deviations
+    `along_x` and `along_y` (pixels). The noise wraps around at the edges and has unit variance. Frequencies that the
+    blur removes are not computed.
+    """
     down, across = _passed(along_y, np.fft.fftfreq(size)), _passed(along_x, np.fft.rfftfreq(size))
     kept = np.count_nonzero(across > _LOST)
     spectrum = np.fft.rfft(rng.standard_normal((size, size)), axis=1)[:, :kept]
