@@ -48,7 +48,7 @@ class ScrewReported(SystemEvent, frozen=True, kw_only=True):
 
 
 def reported(line: str, time: float) -> ScrewReported | None:
-    """Return the report of a screw in a printed line, or None if the line contains no such report."""
+    """Return the report that a printed line makes of a screw, or None if the line reports no screw."""
     words = [*map(int, line.split()), 0, 0, 0, 0]
     if words[0] not in FOUND:
         return None

@@ -1,4 +1,6 @@
-"""The referee of the rail support: parts in their places, screws in their threads, and the screwdriver in its rack."""
+"""The referee of the rail support. It judges whether the parts are in their places, the screws in their threads, and
+the screwdriver in its rack.
+"""
 
 from math import degrees, hypot
 from typing import Final
