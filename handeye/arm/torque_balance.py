@@ -58,7 +58,7 @@ def balanced(
     arm: ArmModel, taken: Sequence[Exertion], friction: Array, belief: Array | None, borne: Array
 ) -> tuple[Array, Unbalanced | None]:
     """Compare the torques of a motion with the estimate made before the motion. Returns two values. The first is the
-    new estimate. The second is the joints that do not balance, or None if all joints balance.
+    new estimate. The second value names the joints that do not balance; it is None if all joints balance.
 
     `arm` is the model with the weighed masses, and `friction` the measured friction. `belief` is the estimate, or
     None if the arm has only been weighed at its first posture. `borne` are the torques that carry a declared load.
@@ -88,12 +88,12 @@ def balanced(
 def weight_difference(
     arm: ArmModel, postures: Array, sliding: NDArray[np.bool_], belief: Array | None
 ) -> Array:
-    """Return how far errors of masses, mass centres and drives may separate the mean torques of a joint in its two
-    directions: half the greatest plausible difference, shape (n,), for a joint that slid in both directions.
+    """Return the effect that errors of masses, mass centres and drives may have on a joint that slides in both
+    directions: half the greatest plausible difference between the mean torques in these directions, shape (n,).
 
     `arm` is the model with the weighed masses, and `belief` the estimate of its errors, as in `balanced`. `postures`
-    are the positions in N servo periods, shape (N, n). `sliding` marks the periods in which each joint slid forwards
-    and backwards, shape (2, N, n).
+    are the positions in N servo periods, shape (N, n). `sliding`, shape (2, N, n), marks the periods in which each
+    joint slid forwards, then the periods in which it slid backwards.
     """
     if belief is None:
         belief = _first_belief(arm, postures)
