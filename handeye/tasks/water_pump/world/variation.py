@@ -66,7 +66,9 @@ def _make() -> Iterator[Quantity]:
 
 
 def _of(number: int, quantities: Iterator[Quantity]) -> Iterator[Quantity]:
-    """Yield quantities of the screw or hole with this number. A pump with fewer screws lacks these quantities."""
+    """Yield `quantities`, which belong to the screw or hole with the number `number`. If this number is greater than
+    the usual number of screws, the yielded quantities exist only in worlds whose pump has this screw.
+    """
     where = (SCREWS, float(number)) if number > USUAL else None
     return (replace(quantity, where=where) for quantity in quantities)
 
