@@ -115,7 +115,7 @@ class Tables:
         self.views: dict[str, View] = {}  # contents that the background level keeps
 
     def read(self, table: str, line: int, word: int) -> int:
-        """Return a word. Raises MlError (M11) if there is no such word."""
+        """Return a word. Raises MlError (M11) if the word does not exist."""
         shape = self._shape(table, line, word)
         if table in self.views:
             return self.views[table].read(line, word)
