@@ -87,7 +87,8 @@ class ArmState(Record, frozen=True, kw_only=True):
 
 
 class SimulatedArm(Mechanism[ArmState], ArmPort):
-    """Motors, brakes and sensors of n joints, named `<prefix>j1`, `<prefix>j2`, ... in the MuJoCo model.
+    """Motors, brakes and sensors of n joints. In the MuJoCo model, the joints are called `<prefix>j1`, `<prefix>j2`,
+    ...
 
     A brake is dry friction in the joint. The brake holds the joint in place, and slips under a torque greater than the
     torque of the brake.
@@ -112,9 +113,9 @@ class SimulatedArm(Mechanism[ArmState], ArmPort):
         the arm's sensors.
 
         The signal lines of an arm are `potentiometer.N`, `tachometer.N`, `drive.N`, `brake.N` and `friction.N` for
-        joint N. The lines `force.x`, `force.y` and `force.z` carry a force at the hand (N, in W), which is 0 in a
-        sound arm; the drives add the torques of this force to the commanded torques. Torques from the
-        computer arrive only while the line `servo` carries 1.
+        joint N. The lines `force.x`, `force.y` and `force.z` carry a false force at the hand (N, in W). This force is
+        0 in a sound arm. In an arm with a fault, the drives add the torques of this force to the commanded torques.
+        Torques from the computer arrive only while the line `servo` carries 1.
         """
         self.name = prefix.rstrip("/")
         names = [f"{prefix}j{number}" for number in range(1, len(arm.joints) + 1)]
@@ -188,7 +189,7 @@ class SimulatedArm(Mechanism[ArmState], ArmPort):
         self._read(q, qd, braked=self._braked)
 
     def _read(self, q: Array, qd: Array, *, braked: bool) -> None:
-        """Store the readings until time passes again, as arrays that cannot be changed."""
+        """Store the readings of the present moment as arrays that cannot be changed."""
         q.setflags(write=False)
         qd.setflags(write=False)
         self._reading = ArmReading(q=q, qd=qd, braked=braked)
