@@ -86,8 +86,8 @@ def followed(gap: float, goal: float) -> bool:
 
 
 def leapt(change: float, reach: float) -> bool:
-    """Return True if the gap changed by more than `reach` (m). `reach` is the distance by which the motor can change
-    the gap in this time.
+    """Return True if the gap changed by more than `reach` (m). `reach` is the greatest change that the motor can make
+    in the time between the two readings of the gap.
     """
     return abs(change) > reach + GAP_NOISE
 
@@ -109,15 +109,16 @@ def thick(gap: float, thickness: float) -> bool:
 
 def kept_apart(gap: float, goal: float) -> bool:
     """Return True if an object keeps the fingers apart while the motor drives them together. `gap` is the gap of the
-    fingers, and `goal` the gap to which the motor drives them (both in m). This is True even if the grip is too light
-    to close a switch.
+    fingers, and `goal` the gap to which the motor drives them (both in m). A grip that is too light to close a switch
+    counts too.
     """
     return gap > EMPTY_GAP and gap - goal > GAP_ERROR
 
 
 def stood_still(change: float, driven: float) -> bool:
-    """Return True if the gap has not changed although the motor has been driven far enough to close the gap by more
-    than GAP_ERROR. `change` and `driven` are in m.
+    """Return True if the fingers stood still although their motor was driven. `change` is the measured change of the
+    gap, and `driven` the change that the motor should have made (both in m). `driven` must be greater than GAP_ERROR,
+    and `change` no greater than noise.
     """
     return driven > GAP_ERROR and abs(change) < GAP_NOISE
 
@@ -155,7 +156,7 @@ def least_gap(minimum: float) -> float:
 
 
 def at_least(gap: float, thickness: float) -> bool:
-    """Return True if the fingers hold an object of at least this thickness (m)."""
+    """Return True if the fingers hold an object that is at least as thick as `thickness` (m)."""
     return gap >= thickness
 
 
@@ -172,7 +173,8 @@ def as_before(gap: float, kept: float, closer: float = SKEW, wider: float = SAME
 
 
 def too_early(gap: float, kept: float) -> bool:
-    """Return True if a finger touches an object at a gap (m) that is much wider than the gap at which the hand held
-    the object before. The object then does not lie in the middle of the hand.
+    """Return True if a finger touches an object too early during closing, so that the object does not lie in the
+    middle of the hand. `gap` is the gap at the touch, and `kept` the much smaller gap at which the hand held the
+    object before (both in m).
     """
     return gap - kept > 2 * OFF_MIDDLE
