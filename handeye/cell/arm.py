@@ -113,9 +113,9 @@ class SimulatedArm(Mechanism[ArmState], ArmPort):
         the arm's sensors.
 
         The signal lines of an arm are `potentiometer.N`, `tachometer.N`, `drive.N`, `brake.N` and `friction.N` for
-        joint N. The lines `force.x`, `force.y` and `force.z` carry a false force at the hand (N, in W). This force is
-        0 in a sound arm. In an arm with a fault, the drives add the torques of this force to the commanded torques.
-        Torques from the computer arrive only while the line `servo` carries 1.
+        joint N. The lines `force.x`, `force.y` and `force.z` carry the offset of the drives as a force at the hand (N,
+        in W): 0 in a sound arm. The drives add the torques of this force to the commanded torques. Torques from the
+        computer arrive only while the line `servo` carries 1.
         """
         self.name = prefix.rstrip("/")
         names = [f"{prefix}j{number}" for number in range(1, len(arm.joints) + 1)]

@@ -78,7 +78,7 @@ class HandErrors:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CameraErrors:
-    """How a TV camera differs from its design."""
+    """The errors of a TV camera, relative to its design."""
 
     place: tuple[float, float, float]  # error of the mount in W, in m
     turn: tuple[float, float, float]  # error of pan, tilt and roll, in rad
