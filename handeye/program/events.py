@@ -29,7 +29,7 @@ class Event(Record, frozen=True, kw_only=True, tag_field="event", tag=True):
 
 
 class SystemEvent(Event, frozen=True, kw_only=True):
-    """Base class of the events that a system adds to the events of all systems. `System.events` lists them."""
+    """Base class of the events that only one system has. `System.events` lists a system's events of this kind."""
 
     importance: ClassVar[Importance] = "info"
 
@@ -61,8 +61,8 @@ class RunStarted(Event, frozen=True, kw_only=True):
 
     @property
     def made_alike(self) -> "RunStarted":
-        """A copy of the event without three facts: the versions, the processor, and the renderer's platform. Such
-        copies make runs from different computers comparable.
+        """A copy of the event without three facts: the versions, the processor, and the renderer's platform. Use these
+        copies to compare runs from different computers.
         """
         camera = msgspec.structs.replace(self.camera, platform="")
         return msgspec.structs.replace(self, versions={}, processor=UNSET, camera=camera)
@@ -142,8 +142,8 @@ class FrictionMeasured(Event, frozen=True, kw_only=True, omit_defaults=True):
 
 
 class GuardFaint(Event, frozen=True, kw_only=True):
-    """The limit of a guard is below `friction` (N or N m), the force or moment that may be sensed in free air where
-    the motion begins.
+    """The limit of a guard is so low that friction could trip it. At the start of the motion, the arm may sense up to
+    `friction` (N or N m) in free air.
     """
 
     guard: GuardKind
@@ -238,8 +238,8 @@ class PartInspected(Event, frozen=True, kw_only=True):
 
 
 class PartMatched(Event, frozen=True, kw_only=True):
-    """Vision compared the place of a part in two pictures. The part is displaced by `off` (m), and a fraction `unlike`
-    of the part looks different.
+    """Vision compared the place of a part in two pictures. `off` is the displacement of the part (m), and `unlike` is
+    the fraction of the part that looks different.
     """
 
     part: str
@@ -298,7 +298,7 @@ class ExperimentMade(Event, frozen=True, kw_only=True):
 
 
 class CommandedPeriod(Record, frozen=True, kw_only=True, array_like=True):
-    """What the calling program commanded for one servo period."""
+    """The commands of the calling program for one servo period."""
 
     torque: tuple[float, ...] | None  # of each joint, N m, or N if prismatic; None: the brakes were set
     gap: float  # goal of the finger gap, m
@@ -330,8 +330,8 @@ class PanicStopped(Event, frozen=True, kw_only=True):
 
 
 class WentBack(Event, frozen=True, kw_only=True):
-    """All events of the run were undone except the first `events` events. This event occurs only in a journal;
-    a trace leaves out the undone events.
+    """The run went back: only its first `events` events remain, and the later ones were undone. This event occurs only
+    in a journal, because a trace contains no undone events.
     """
 
     events: int
@@ -347,8 +347,8 @@ class UndoOrdered(Event, frozen=True, kw_only=True):
 
 
 class UndoStarted(StepStarted, frozen=True, kw_only=True, omit_defaults=True):
-    """The arm begins to undo a step, or several executed steps at once, such as the rounds of a loop. `steps` is their
-    number.
+    """The arm begins to undo a step, or several executed steps at once, such as the rounds of a loop. `steps` is the
+    number of steps to undo.
     """
 
     steps: int = 1  # executed steps that are undone at once
@@ -361,7 +361,7 @@ class UndoFinished(StepFinished, frozen=True, kw_only=True):
 
 
 class StageUndone(Event, frozen=True, kw_only=True):
-    """All steps of a stage since its last beginning have been undone."""
+    """The arm has undone all steps that were executed since the stage last began."""
 
     stage: str
 
