@@ -123,5 +123,5 @@ def _across(way: Array) -> tuple[Array, Array]:
 
 
 def unit(vector: Array) -> Array:
-    """Return a vector of length 1 in the same direction."""
+    """Return the vector of length 1 in the direction of `vector`."""
     return np.asarray(vector / np.linalg.norm(vector))

@@ -153,7 +153,7 @@ def driver() -> str:
 
 @cache
 def context() -> tuple[str, Any]:
-    """Return two values: the name of the platform, and the OpenGL context, of which this process has only one.
+    """Return two values: the name of the platform, and the only OpenGL context of this process.
 
     All renderers share the context, so that the objects of one renderer are never freed in the context of another.
     Raises InvalidInput if OpenGL does not work on this computer. OpenGL is tested with an empty scene, because an
