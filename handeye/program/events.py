@@ -260,8 +260,8 @@ class CameraStarted(Event, frozen=True, kw_only=True):
 
 
 class CameraBusy(Event, frozen=True, kw_only=True):
-    """The arm stood still for `seconds` (s) because of the camera: `action` is `wait` (for its mechanism) or `digitise`
-    (a picture).
+    """The arm stood still for `seconds` (s) because of the camera. The `action` is `wait` if the arm waited for the
+    camera's mechanism, and `digitise` if it waited for a picture.
     """
 
     action: str
@@ -288,8 +288,8 @@ class OperatorAnswered(Event, frozen=True, kw_only=True):
 
 
 class ExperimentMade(Event, frozen=True, kw_only=True):
-    """A person at the stepper changed the memory of the program (values in m and rad). From then on, the plan alone no
-    longer determines the run.
+    """A person at the stepper changed the memory of the program (values in m and rad). After this event, the plan
+    alone no longer determines the run.
     """
 
     what: str  # kind of value: `saved`, `position`, or another kind of the system
@@ -308,8 +308,8 @@ class CommandedPeriod(Record, frozen=True, kw_only=True, array_like=True):
 
 
 class PeriodsCommanded(Event, frozen=True, kw_only=True):
-    """Between two steps, a controller of the calling program commanded the arm. From then on, the plan alone no longer
-    determines the run.
+    """Between two steps, a controller of the calling program commanded the arm. After this event, the plan alone no
+    longer determines the run.
     """
 
     by: str  # name of the controller
@@ -317,8 +317,8 @@ class PeriodsCommanded(Event, frozen=True, kw_only=True):
 
 
 class LineTyped(Event, frozen=True, kw_only=True):
-    """A person typed a line at the console of a system, for one of its tasks. From then on, the program alone no
-    longer determines the run.
+    """A person typed a line at the console of a system, for one of the system's tasks. After this event, the program
+    alone no longer determines the run.
     """
 
     text: str
