@@ -81,7 +81,8 @@ class WiredBus(MicrobusPort):
 
         Args:
             defects: injected faults of the bus.
-            seed: seed of the random times at which the microcomputers begin to poll, and of their clock errors.
+            seed: seed of the random numbers. These are the times at which the microcomputers begin to poll, and the
+                errors of their clocks.
             clock_spread: greatest clock error, as a fraction, for example .005.
         """
         layout.check()
