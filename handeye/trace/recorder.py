@@ -35,7 +35,9 @@ def part(path: Path) -> Path:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PictureSource:
-    """Provides a program's picture, and the marks on the picture, when an event concerns that picture."""
+    """Provides the pictures of the program, and the marks on them. The recorder asks for them when an event concerns a
+    picture.
+    """
 
     picture: Callable[[str], Picture]  # the latest picture with this name
     found: Callable[[], tuple[str, Sequence[Mark]]]  # picture and marks that the present step found
