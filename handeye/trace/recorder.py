@@ -134,7 +134,7 @@ class Recorder:
         self._writing.file.sync()
 
     def cut(self, events: int) -> None:
-        """Keep the first N events, where N is `events`, and remove everything after them."""
+        """Remove everything after event number `events`."""
         old = self._writing
         if not old.file.broken:
             old.file.sync()
@@ -166,8 +166,9 @@ class Recorder:
             self._writing.periods(waiting)
 
     def _copied(self, old: bytes, events: int, head: RunStarted | None) -> TraceWriter:
-        """Begin a new file with the content of an old one up to event number `events`. The new file replaces
-        the old one."""
+        """Begin a new file, and copy into it the beginning of an old file, up to event number `events`. The new file
+        replaces the old file.
+        """
         file = GrowingFile(self._path.with_name(f".{self._path.name}.new"))
         writing = TraceWriter(file, self._frames, self._plan)
         try:
