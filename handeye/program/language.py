@@ -55,7 +55,7 @@ class OwnLanguage(ABC):
         return None
 
     def words(self, source: Source, offset: int) -> Sequence[tuple[str, str]]:
-        """Return the words that may stand at an offset, each with its meaning."""
+        """Return the words that are allowed at an offset, each with its meaning."""
         return ()
 
 
