@@ -53,8 +53,8 @@ class Found(Exception):
 
 
 class Strategy:
-    """One diagnosis. `tell` is called after each test, with two values: the test in the form in which a player types
-    it, and the lines of text that state the result.
+    """One diagnosis. `tell` is called after each test, with two values: the test as a player types it, and the lines
+    of text that state the result.
     """
 
     def __init__(
