@@ -197,7 +197,7 @@ class Threads(Mechanism[ThreadsState]):
     # --- loose screws ---
 
     def _engage(self, seconds: float) -> None:
-        """Let each loose screw that meets the conditions enter its thread within the next `seconds`."""
+        """Let each loose screw enter a thread if it meets the conditions of `_bites` within the next `seconds`."""
         taken = {hole.screw for hole in self.holes}
         mouths = self._data.xpos[self._base] + self._carriers.mouths @ self._axes().T
         for j, body in enumerate(self._screw):
