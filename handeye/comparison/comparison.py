@@ -93,7 +93,7 @@ class ComparedRun:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Stages:
-    """A stage in both runs. The figures of a run that did not reach the stage are None."""
+    """A stage in both runs. If a run did not reach the stage, None stands in place of its figures."""
 
     name: str
     a: StageFigures | None

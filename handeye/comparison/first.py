@@ -60,8 +60,8 @@ class Stretch:
 
 
 def stretches(trace: Trace, *, unseen: int, periods: bool = True) -> Iterator[Stretch]:
-    """Split a trace into stretches, one per step. If a step begins a stage, the event of the stage and the
-    poses recorded at that moment belong to the step's stretch.
+    """Split a trace into stretches, one per step. If a step begins a stage, its stretch includes the event of the
+    stage, and the poses recorded with this event.
 
     Args:
         unseen: number of an event; messages that belong to earlier events are left out.
@@ -156,8 +156,8 @@ class First:
 
     @property
     def place(self) -> Place | None:
-        """The step of the first run in which the difference lies. If the first run has not begun or has ended there,
-        this is the step of the second run.
+        """The step in which the runs differ: the step of the first run or, if this run has not begun or has ended
+        already, the step of the second run.
         """
         return self.a or self.b
 

@@ -54,7 +54,7 @@ def _aligned_texts(before: Sequence[str], after: Sequence[str]) -> Sequence[Pair
 
 
 def place_of(run: RecordedRun, started: StepStarted) -> Place:
-    """Return the place in the script of a step that was begun."""
+    """Return the place of a step in the script. `started` is the event with which the step began."""
     program = listing_of(run)
     return Place(
         stage=program.stages[program.steps[started.step].stage],
