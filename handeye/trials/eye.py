@@ -45,7 +45,7 @@ summary.
 
 
 def eye_sweep(name: str, trial: Trial[Any]) -> Sweep[EyeRow]:
-    """Return the sweep for the trial `trial`, which its task lists under the name `name`."""
+    """Return the sweep for `trial`. `name` is the name of this trial in the list of its task."""
 
     def attempts(rows: Sequence[EyeRow]) -> list[Attempt]:
         found = [msgspec.convert(row.attempt, trial.attempt) for row in rows if row.attempt]

@@ -1,5 +1,5 @@
 """Executes schedules, and checks invariants after each. If a schedule fails, its elements are removed one by one. An
-element without which the schedule does not fail stays in the schedule.
+element is put back if the schedule no longer fails without it.
 """
 
 import tempfile
@@ -100,7 +100,7 @@ def _plain(snapshot: Snapshot) -> bytes:
 
 
 class EndOfStage(StopCondition, frozen=True, kw_only=True):
-    """Pause at the first end of a stage at which the run has done more than `after` steps."""
+    """Pause when a stage ends and the run has done more than `after` steps."""
 
     after: int
 
@@ -232,8 +232,9 @@ def _late(failed: Findings, schedule: Schedule, runner: Runner, start: Checkpoin
 def shrunk(
     failing: ScheduleResult, schedule: Schedule, fails: Callable[[Schedule], ScheduleResult]
 ) -> tuple[Schedule, ScheduleResult]:
-    """Reduce a failing schedule: remove one element at a time if the schedule fails without this element, too. Returns
-    the reduced schedule and its result."""
+    """Reduce a failing schedule. Each element is removed in turn, and put back if the schedule no longer fails without
+    it. Returns the reduced schedule and its result.
+    """
     for fewer in schedule.without():
         tried = fails(fewer)
         if tried.names & failing.names:
