@@ -249,7 +249,9 @@ class Gantries(Plant[GantryMemory]):
 
     @property
     def counting(self) -> tuple[bool, ...]:
-        """For each axis, False while it searches for the end of its rail. The axis counts from this end."""
+        """One value for each axis: False while the axis searches for the end of its rail. Later, the axis counts its
+        steps from this end.
+        """
         return tuple(motor is not None and motor.memory.state in COUNTING for motor in self._motors)
 
     @property
