@@ -122,8 +122,8 @@ class TwoRuns:
 
     @cached_property
     def numbers(self) -> tuple[Mapping[int, int], Mapping[int, int]]:
-        """For each program, a map from the number of each step to the number of its partner, which is a step of the
-        other program.
+        """Two dictionaries, one for each program. Each maps the number of a step to the number of the step's partner
+        in the other program.
         """
         a, b = (
             {step: number for number, pair in enumerate(self.pairs) if (step := pair[side]) is not None}

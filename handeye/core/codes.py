@@ -1,4 +1,4 @@
-"""All kinds of diagnostics, by code."""
+"""The table of all kinds of diagnostics. The key of a kind is its code."""
 
 from collections.abc import Mapping
 from typing import Final, Literal
