@@ -122,8 +122,9 @@ class FaultRow(TrialRow, frozen=True, kw_only=True):
 
 
 def chosen(catalogue: Catalogue, names: Sequence[str]) -> list[FaultKind]:
-    """Return the faults with these names or in these groups. If `names` is empty, return the faults that are tried by
-    default: the faults of the task's matrix. Raises InvalidInput for an unknown name.
+    """Return the faults that `names` selects. A name is the name of a fault or of a group of faults. If `names` is
+    empty, return the faults that are tried by default: the faults of the task's matrix. Raises InvalidInput for an
+    unknown name.
     """
     found = [kind for name in names or catalogue.matrix for kind in catalogue.select(name)]
     return list({kind.name: kind for kind in found}.values())
@@ -158,8 +159,8 @@ class FaultWork:
         return [FaultRow(trial=case.trials[0], seed=case.seed, condition=case.condition, tried=tried)]
 
     def _start(self, world: WorldSpec, faults: tuple[Fault, ...], stage: int | None) -> Checkpoint:
-        """Return the start of a run with these faults: if possible, the stored state before the stage in which the
-        faults begin.
+        """Return the start of a run with `faults`. If runs without faults are stored, the run starts from a stored
+        state: the state before `stage`, in which the faults begin. If not, the run starts from the beginning.
         """
         setup = Setup(plan=self.plan, world=world, camera=self.camera)
         if self.sound is None or stage is None:
