@@ -1,4 +1,4 @@
-"""The table of all kinds of mistakes in MAL programs, by code, each with an example text and a cure."""
+"""The table of all kinds of mistakes in MAL programs. Each kind has a code, an example text and a cure."""
 
 from typing import Final
 

@@ -90,7 +90,9 @@ class MalProgram:
 
     @cached_property
     def beyond(self) -> CompiledLine | None:
-        """The first line that uses an axis or hand that only the assembly line has. None if there is no such line."""
+        """The first program line for which the machine must be the assembly line, because SUPERSIGMA lacks an axis or
+        a hand; None if SUPERSIGMA has all that the program uses.
+        """
         for address, each in enumerate(self.code):
             names = each.operand if isinstance(each.operand, tuple) else (each.operand,)
             if any(name in _BEYOND for name in names):

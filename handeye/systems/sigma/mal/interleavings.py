@@ -172,8 +172,8 @@ class _Search:
         )
 
     def _expanded(self, key: bytes, state: _State) -> list[tuple[Act, _State]]:
-        """Return the states that follow a state. A statement may concern only its own task. If such a statement leads
-        to a new state, only this new state is returned.
+        """Return the states that follow a state. If a statement that concerns no other task leads to a new state, only
+        this new state is returned.
         """
         if state.memory.fault is not None:
             return []
@@ -385,8 +385,8 @@ def schedule_lines(schedule: Sequence[Act]) -> list[str]:
 
 
 def unreached_lines(program: MalProgram, result: Interleavings) -> str:
-    """Return the lines that are never executed, whatever the order of the tasks, such as `lines 40, 70 to 90`. The
-    text is empty if there are no such lines.
+    """Name the lines that are executed in no order of the tasks. Returns a text such as `lines 40, 70 to 90`, or an
+    empty text if each line is executed in some order.
     """
     numbers, spans = [line.number for line in program.lines], list[list[int]]()
     for before, number in zip([None, *numbers], numbers, strict=False):
