@@ -1,4 +1,6 @@
-"""Finds how far the program has shown a claim at each node: how many phases of the claim every path to the node shows."""
+"""Finds how far the program has shown a claim at each node: how many phases of the claim every path to the node
+shows.
+"""
 
 from dataclasses import dataclass, field
 from heapq import heappop, heappush

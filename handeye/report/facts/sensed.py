@@ -1,4 +1,6 @@
-"""Collects what the 3D view draws over the cell: the forces at the hand, the places of searches, and held objects."""
+"""Collects the data that the 3D view adds to the picture of the cell: the forces at the hand, the places of searches,
+and held objects.
+"""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -87,8 +89,8 @@ def _tried(search: Search, ends: Array) -> TriedPlaces:
 
 
 def held_objects(run: RecordedRun) -> tuple[HeldObject, ...]:
-    """Return the objects that the hand held, with their times, the earliest first. Returns no objects if the task of
-    the run is unknown.
+    """Return the objects that the hand held, and when it held them, the earliest first. Returns no objects if the task
+    of the run is unknown.
     """
     return tuple(_held(run))
 

@@ -87,7 +87,7 @@ def _figure(motion: GuardedMotion) -> Markup:
 
 
 def _said(motion: GuardedMotion) -> str:
-    """Say in words whether the guard stopped the motion."""
+    """Return words that say whether the guard stopped the motion."""
     limit = felt(motion.guard, motion.limit)
     if motion.trip is not None:
         return f"{_short(motion.guard, motion.trip.value)}; limit {limit}"
