@@ -239,7 +239,7 @@ class _Search:
         self.events.clear()
 
     def _taken(self) -> _State:
-        """Return the present state, without values that do not affect what follows."""
+        """Return the present state, without the values that have no effect on later states."""
         memory = self.vm.memory
         memory.turn, memory.last, memory.printed, memory.commands, memory.questions = "", "", "", 0, 0
         for axis in [axis for axis in memory.owners if axis not in self.machine.state.moving]:
@@ -256,7 +256,7 @@ class _Search:
     # -- looking --------------------------------------------------------------------------------------
 
     def _see_events(self, key: bytes, state: _State, act: Act) -> None:
-        """Record each flag that an act sets although the flag is already set. Such an act loses a signal."""
+        """Record each flag that an act sets although the flag is already set: a signal is lost."""
         taken = {each.operand for each in self.program.code if each.op == "TAKEF"}
         for event in self.events:
             lost = (

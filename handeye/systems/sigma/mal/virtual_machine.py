@@ -205,9 +205,7 @@ class VirtualMachine:
     # -- turns ---------------------------------------------------------------------------------------------
 
     def _order(self) -> list[str]:
-        """Return the tasks in the order of their turns, beginning with the task after the task that had the
-        last turn.
-        """
+        """Return the tasks in the order of their next turns. The task that had the last turn comes last."""
         names = [*self.memory.tasks]
         after = names.index(self.memory.last) + 1 if self.memory.last in names else 0
         return names[after:] + names[:after]
@@ -221,7 +219,9 @@ class VirtualMachine:
         return None
 
     def goes_on(self, name: str) -> bool:
-        """End the wait of a task if its condition is met. Returns True if the task can then begin a statement."""
+        """If a task waits for a condition that is now met, end the wait. Returns True if the task can then begin a
+        statement.
+        """
         task = self.memory.tasks[name]
         if task.amid:
             if task.waits is not None and not self._operations.met(name, task, task.waits):
