@@ -1,5 +1,5 @@
 """Tries the mutants of a program. The proof comes first. If the proof does not refuse a mutant, the mutant is run with
-the faults that would be noticed by the check that the mutant lacks.
+faults. These are the faults that the missing check would notice.
 """
 
 from collections import Counter
@@ -114,7 +114,9 @@ class MutantWork:
         )
 
     def _start(self, mutant: Mutant, world: WorldSpec, fault: Fault) -> Checkpoint:
-        """Return the start of a run of a mutant: if possible, the state of the sound run before the mutant's stage."""
+        """Return the start of a run of a mutant with `fault`. If the fault is present from the start, the run starts
+        at the beginning. If not, the run starts in the state of the sound run before the fault's stage.
+        """
         setup = Setup(plan=self.plan, world=world, camera=self.camera)
         changed = msgspec.structs.replace(self.plan, program=mutant.program)
         if fault.stage is None:

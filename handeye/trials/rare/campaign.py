@@ -180,7 +180,9 @@ def _check(row: RareRow, case: RareCase) -> None:
 
 
 class _Measured:
-    """Runs the worlds of a level's points, and measures how far each run was from one kind of failure."""
+    """Runs the program in the world of each point of a level, and measures how far each run was from one kind of
+    failure.
+    """
 
     def __init__(self, campaign: Campaign, kind: FailureKind, known: Usual) -> None:
         self._campaign, self._kind, self._usual = campaign, kind, known
