@@ -80,7 +80,7 @@ class SpoiledWork:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FaultKind:
-    """A fault that a catalogue offers: its name, meaning and possible sizes, and its expected detection by a program."""
+    """A fault that a catalogue offers: its name, its meaning, its possible sizes and its expected detection."""
 
     name: str
     meaning: str  # a sentence: what is broken, and what the program gets instead
