@@ -1,4 +1,6 @@
-"""Builds the section with the 3D view of the run: the stages, the controls, and the script beside the view."""
+"""Builds the section with the 3D view of the run. The section also contains the stages, the controls, and the
+script.
+"""
 
 from collections.abc import Iterator, Sequence
 from typing import Final

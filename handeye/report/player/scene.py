@@ -202,7 +202,9 @@ def seen(model: Any, body: int) -> list[int]:
 
 
 def lowest(model: Any) -> float:
-    """Return the height (m) of the lowest point of the world. Absent bodies are put below this point."""
+    """Return the height (m) of the lowest point of the world. A simulation puts a body below this point while the body
+    is absent from the cell.
+    """
     found = [surface(model, shape) for shape in seen(model, 0)]
     return min((float(part.points[:, 2].min()) for part in found if part is not None), default=-np.inf)
 
@@ -242,8 +244,8 @@ the scene, and to the left of the viewer.
 
 
 def views(model: Any) -> list[dict[str, Any]]:
-    """Return the views of a scene. Each view has a name and a viewing angle (degrees). `eye` is the position of the
-    viewer (m), who looks at the point `at` (m).
+    """Return the views of a scene. Each view has a name and a viewing angle (degrees). The viewer is at the point
+    `eye` (m), and looks at the point `at` (m).
 
     In a view with a `body`, `eye` and `at` are relative to the body's position, along the axes of the world.
     """
