@@ -289,7 +289,7 @@ class VirtualMachine:
 
     def _see_aborts(self) -> None:
         """If a motor has raised the interrupt, query the motor's position. The task that moved the motor continues at
-        the line in the task's ON ABORT statement. If the task has no such statement, the program stops.
+        the line in the task's ON ABORT statement. If the task has no ON ABORT statement, the program stops.
         """
         if not self.machine.interrupt:
             return
@@ -318,7 +318,7 @@ class VirtualMachine:
         its axis was hit.
 
         If an arm was hit above its wrist, that wrist feels nothing. Therefore, while the arms are near each other, a
-        great force on one wrist makes the count of the same axis of the other arm doubtful, too.
+        great force on one wrist makes two counts doubtful: the counts of the same axis of both arms.
         """
         peaks = {axis: self._peak(name, axis) for axis in self.program.axes if int(axis[1]) in NEIGHBOURS}
         for axis, own in peaks.items():
