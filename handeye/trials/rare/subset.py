@@ -1,9 +1,10 @@
 """Subset simulation: estimates the probability of a rare failure as a product of probabilities that are not rare.
 
 Source: S.-K. Au and J. L. Beck, Estimation of small failure probabilities in high dimensions by subset simulation,
-Probabilistic Engineering Mechanics 16 (2001) 263-277. The proposal, and the rule for its step, are those of
-I. Papaioannou, W. Betz, K. Zwirglmaier and D. Straub, MCMC algorithms for subset simulation, Probabilistic
-Engineering Mechanics 41 (2015) 89-103; other fields call this proposal preconditioned Crank-Nicolson.
+Probabilistic Engineering Mechanics 16 (2001) 263-277. The Markov chains propose new worlds. The form of the proposals,
+and the rule for their step, are from I. Papaioannou, W. Betz, K. Zwirglmaier and D. Straub, MCMC algorithms for subset
+simulation, Probabilistic Engineering Mechanics 41 (2015) 89-103; in other fields of science, this form is called
+preconditioned Crank-Nicolson.
 """
 
 import math
@@ -80,8 +81,8 @@ def subset_simulation(
     stream: Callable[[int], np.random.Generator],
     most: int,
 ) -> Iterator[Level]:
-    """Yield one level after the other, until the failure is reached, no level is left, or the number of levels reaches
-    `most`.
+    """Yield one level after the other, at most `most` levels. The levels end earlier when the threshold is the failure
+    itself, or when all worlds of a level have the same margin.
 
     Args:
         first: worlds drawn independently; each further level has as many worlds.
@@ -127,7 +128,7 @@ class _Walk:
         self._runs = self._accepted = 0
 
     def chains(self, length: int) -> list[_Chain]:
-        """Return the chains of the next level. The sum of their numbers of states is `length`. In each round, every
+        """Return the chains of the next level. Together, these chains have `length` states. In each round, every
         chain that is not yet complete advances by one state.
         """
         least, more = divmod(length, len(self._seeds))
