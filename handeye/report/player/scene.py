@@ -258,7 +258,7 @@ def views(model: Any) -> list[dict[str, Any]]:
 
 
 def lamp(model: Any) -> dict[str, list[float]]:
-    """Return two positions (m): that of the lamp, and that of the point at which the lamp is aimed."""
+    """Return the position of the lamp, and the point at which the lamp is aimed (m)."""
     middle = np.array(model.stat.center)
     return {"eye": rounded(middle + model.stat.extent * _LAMP), "at": rounded(middle * [1, 1, 0])}
 
@@ -272,8 +272,8 @@ def _camera(model: Any, number: int) -> dict[str, Any]:
 
 
 def _distance(model: Any, eye: Array, forward: Array) -> float:
-    """Return the distance (m) from a camera to the point where its line of sight reaches the height of the scene's
-    centre.
+    """Return the distance (m) of a camera from the point at which it looks. This is the point where its line of sight
+    is as high as the scene's centre.
     """
     drop = eye[2] - model.stat.center[2]
     return float(-drop / forward[2]) if drop > 0 and forward[2] < -0.1 else float(model.stat.extent)

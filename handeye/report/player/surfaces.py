@@ -1,4 +1,4 @@
-"""Makes the surfaces of the shapes in a scene: triangles, with the normal of the surface at each corner."""
+"""Makes the surfaces of the shapes in a scene. A surface consists of triangles, and has a normal at each corner."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -108,7 +108,9 @@ def _distinct(rows: NDArray[Any]) -> tuple[NDArray[np.int64], NDArray[np.int64]]
 
 
 def _meeting(corner: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """Return all pairs of entries that are the same point, including the pair of each entry with itself."""
+    """Return all pairs of entries of `corner` that stand for the same point. Each entry also forms a pair with
+    itself.
+    """
     order = np.argsort(corner, kind="stable")
     first = np.flatnonzero(np.diff(corner[order], prepend=-1))
     count = np.diff(np.append(first, len(order)))
