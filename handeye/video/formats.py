@@ -46,8 +46,8 @@ def webp(frames: Frames, held: int) -> bytes:
 
 
 def settled(frames: Frames) -> Frames:
-    """Yield the frames without their small changes: a block of pixels changes only when it differs enough from the
-    block that was last shown in its place.
+    """Yield the frames without small changes. A block of pixels is replaced only when the new block differs enough
+    from the shown block.
 
     libwebp leaves out blocks that resemble the blocks of the previous frame. Without this function, slow changes
     would never be shown.
