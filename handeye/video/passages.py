@@ -76,7 +76,9 @@ def _pieces(spans: Iterable[Span], edges: list[float]) -> Iterator[Span]:
 
 
 def at_speed(shown: tuple[Passage, ...], speed: float) -> Array:
-    """Return how long the video shows each passage (s), shape (n,). The run is shown at `speed` times its real speed."""
+    """Return how long the video shows each passage (s), shape (n,). The run is shown at `speed` times its real
+    speed.
+    """
     return _took(shown) / speed + _LOOK * _still(shown)
 
 
