@@ -49,7 +49,7 @@ class ArmMemory(Record, frozen=True, kw_only=True):
 
 
 class AxesArm(TrigArm):
-    """A TRIG arm that consists of the six axes of a machine (X, Y, Z, roll, pitch and yaw) and of the machine's hand."""
+    """A TRIG arm that consists of the six axes (X, Y, Z, roll, pitch and yaw) and the hand of a machine."""
 
     def __init__(self, axes: Axes, clock: Clock, limits: HandlingLimits, *, ready: bool = False) -> None:
         """Take the arm. If the arm is not `ready`, open its hand."""
