@@ -117,8 +117,9 @@ def _sums(scan: Scan, where: NDArray[np.intp], across: NDArray[np.intp] | None) 
 def _steepest(
     rise: Array, step: float, ahead: Array, beyond: float
 ) -> tuple[NDArray[np.bool_], NDArray[np.intp], NDArray[np.intp]]:
-    """Find, for each line, whether the intensity rises by at least `step`, to at least the intensity `beyond`. Also
-    find the first place of such a rise, and the steepest place near it.
+    """Return a mask of the lines on which the intensity rises. A rise counts if it is at least `step` and ends at an
+    intensity of at least `beyond`. Also return the first place of such a rise on each line, and the steepest place
+    near it.
     """
     n, last = np.arange(len(rise)), rise.shape[1] - 1
     strong = rise >= step

@@ -1,9 +1,9 @@
 """The television camera model: a pan/tilt mount, a two-lens turret, a raster of points.
 
-Camera frame C has x along the lines (in the direction of increasing column u), y down the picture (increasing row
-v), and z forward. Coordinates (u, v) of the picture start at the centre of the first point of the first line. At
-pan 0 and tilt 0 the camera looks along -y of the table; positive pan turns it counter-clockwise seen from above,
-positive tilt turns it downwards.
+Camera frame C has x along the lines (in the direction of increasing column u), y down the picture (increasing row v),
+and z forward. Coordinates (u, v) of the picture start at the centre of the first point of the first line. At pan 0 and
+tilt 0, the camera looks along -y of the table. Positive pan turns the camera counter-clockwise, seen from above.
+Positive tilt turns the camera downwards.
 """
 
 import math
@@ -55,8 +55,8 @@ class CameraModel:
     """Position and geometry of the camera. Position, geometry and two potentiometer readings together determine the
     view of the camera.
 
-    The parameters (mount, two zero errors, roll, focal scale and offset of each lens) are the parameters that the
-    researchers at Stanford used for their cell. Unlike a 3x4 collineation matrix, these parameters stay valid for
+    The model has the parameters that the researchers at Stanford used for their cell: mount, two zero errors, roll,
+    and the focal scale and offset of each lens. Unlike a 3x4 collineation matrix, these parameters stay valid for
     other aims and lenses.
     """
 
