@@ -77,8 +77,8 @@ def scored(
 
 
 def to_json(result: BenchResult) -> bytes:
-    """Encode the result as one JSON object. Hidden seeds are left out: the number 0 replaces the first seed in the
-    file of hidden seeds, 1 the second, and so on.
+    """Encode the result as one JSON object. Hidden seeds are left out: the position of a seed in the task's list of
+    hidden seeds, counted from 0, replaces the seed.
     """
     told = msgspec.to_builtins(result) | {"score": result.score}
     if result.seeds == "hidden":

@@ -55,9 +55,9 @@ class SimulatedHand(Mechanism[HandState], HandPort):
         """Make a hand at rest.
 
         The lines of a hand are `gap_potentiometer`, `finger_motor`, `finger_switch.plus_y` and
-        `finger_switch.minus_y`. A switch closes at a force that the hand multiplies by a factor: the lines
-        `switch_force.plus_y` and `switch_force.minus_y` carry the factors for the two switches. While the line
-        `switches` carries 1, the two switches are exchanged.
+        `finger_switch.minus_y`. The lines `switch_force.plus_y` and `switch_force.minus_y` carry one factor for each
+        switch. The hand multiplies the force at which the switch closes by this factor. While the line `switches`
+        carries 1, the two switches are exchanged.
         """
         self.name = f"{prefix}hand"
         self._model, self._data = model, data

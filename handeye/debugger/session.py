@@ -38,9 +38,9 @@ class DebugSession:
     ) -> None:
         """Take control of a run. The run pauses at breakpoints and also at `stops`.
 
-        `kept` is given a number of steps. It finds the newest checkpoint on disk for which no more steps were executed
-        than this number. `keep` writes a checkpoint, if the run stores checkpoints. `pictures` is the folder to which
-        the last picture is written when the user asks for it.
+        `kept(n)` finds the newest checkpoint on disk in which at most n steps are done. `keep` writes a checkpoint, if
+        the run stores checkpoints. `pictures` is the folder to which the last picture is written when the user asks
+        for it.
         """
         self.runner = runner
         self.stops = stops
