@@ -35,8 +35,8 @@ def default_script(work: Task | None = None) -> Path:
 
 
 def program_named(name: str) -> tuple[Path, Task] | None:
-    """Return the included script whose file name without its extension is `name`, together with its task; None if
-    there is no such script.
+    """Return the script with the file name `name` (without extension) that is included with handeye, and the task of
+    this script. Returns None if no included script has this name.
     """
     return next((each for each in _programs() if each[0].stem == name), None)
 
