@@ -1,5 +1,5 @@
-"""Takes fine photographs. A fine photograph is the mean of many exposures. Each exposure uses a different point of the
-lens, and light from different points of the lamp and the sky.
+"""Takes fine photographs. A fine photograph is the mean of many exposures. Each exposure uses other points of the
+lens, the lamp and the sky.
 
 A plain OpenGL picture has hard shadows and jagged edges, and everything in it is in focus. The exposures are averaged
 as light, not as screen values. The mean picture has soft shadows and smooth edges, and objects out of focus are

@@ -1,5 +1,5 @@
-"""Advances the physics in steps. The steps are long while only carried parts touch other bodies, and short while there
-are any other contacts. While everything sleeps, no step is computed. If the task allows middle steps, which are
+"""Advances the physics in steps. While everything sleeps, no step is computed. The steps are long while only carried
+parts touch other bodies, and short while there are any other contacts. If the task allows middle steps, which are
 shorter than long steps, most of these other contacts are computed in middle steps instead of short steps.
 
 Contacts need short steps, because their softness grows with the square of the length of the step. Free motion does not
