@@ -178,7 +178,7 @@ def digest(arm: ArmModel) -> str:
 
 
 def same_arm(one: ArmModel, other: ArmModel) -> bool:
-    """Return True if all values of two arm models are equal, including values used only in the working phase."""
+    """Return True if all values of two arm models are equal, including the values on which no plan depends."""
     return _figures(one, ()) == _figures(other, ())
 
 

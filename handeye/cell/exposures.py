@@ -1,4 +1,4 @@
-"""Takes fine photographs. A fine photograph is the mean of many exposures. Each exposure uses other points of the
+"""Takes fine photographs. A fine photograph is the mean of many exposures. Each exposure uses different points of the
 lens, the lamp and the sky.
 
 A plain OpenGL picture has hard shadows and jagged edges, and everything in it is in focus. The exposures are averaged

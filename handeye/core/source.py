@@ -1,4 +1,4 @@
-"""Source texts, and spans of characters in them."""
+"""Defines source texts, and spans of characters in these texts."""
 
 import re
 from bisect import bisect_right
