@@ -77,7 +77,9 @@ class CameraModel:
         raise BadArgument(f"the turret has no {focal_length * 1000:.0f} mm lens; it has {known}")
 
     def view(self, focal_length: float, pan: float, tilt: float) -> "View":
-        """Return the view through the lens with this focal length (m) at these potentiometer readings (rad)."""
+        """Return the view through the lens with the focal length `focal_length` (m). The potentiometers of the mount
+        read `pan` and `tilt` (rad).
+        """
         return View(model=self, lens=self.lens(focal_length), pan=pan, tilt=tilt)
 
     def aim(self, point_W: Array | tuple[float, float, float], focal_length: float) -> tuple[float, float]:
@@ -149,8 +151,8 @@ class View:
         return np.asarray(in_camera @ self.X_WC[:3, :3].T)
 
     def resolution(self, point_W: Array) -> tuple[float, float]:
-        """Return the number of picture points per metre of a horizontal plane through `point_W`: along the picture
-        lines, and across them.
+        """Return two resolutions of a horizontal plane through `point_W`, in picture points per metre. The first is
+        along the picture lines, and the second across them.
         """
         uv = self.project(point_W) + np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
         around = self.back_project(uv, float(np.ravel(point_W)[2]))

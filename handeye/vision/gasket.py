@@ -3,8 +3,8 @@
 In the difference of the pictures the gasket is a bright blob with two dark holes. There is little difference wherever
 the base or the gasket has a hole. If the gasket is displaced, each dark hole in the difference is therefore the
 *union* of a hole of the gasket and the hole of the base below it. The centre of the union moves by only half the
-displacement, but its border moves on one side by all of the displacement. Therefore both the centre and the border are
-tested. If the gasket is in its place, `gasket_sheet` checks that the gasket is whole.
+displacement. On one side, the border of the union moves by the whole displacement. Therefore both the centre and the
+border are tested. If the gasket is in its place, `gasket_sheet` checks that the gasket is whole.
 """
 
 import math
@@ -92,9 +92,9 @@ def inspect(
 ) -> GasketInspection:
     """Compare pictures of a part at `pose` (x, y in m, yaw in rad), taken before and after a gasket was laid on it.
 
-    Both pictures must be taken with the same aim and target voltage, and with the arm at the same position, because
-    the shadow of the arm is the greatest disturbance. The second picture is aligned with the first by the areas that
-    are the same in both pictures. The part must have two holes.
+    Both pictures must be taken with the same aim and target voltage. The arm must also be at the same position,
+    because its shadow is the greatest disturbance. The second picture is aligned with the first by the areas that are
+    the same in both pictures. The part must have two holes.
     """
     if len(part.holes) < 2:
         raise BadArgument("two holes are needed to inspect a gasket, but the program gives fewer")
@@ -142,7 +142,7 @@ _NAMES: Final[tuple[LargeHole, LargeHole]] = ("largest", "second")
 
 def _as_seen(old: Scan, view: View, part: Part, places: Array) -> Array:
     """Return the corrected positions of the base's holes (in metres, shape (2, 3)). The largest hole is located in the
-    picture without the gasket. Its position error corrects the positions of both holes.
+    picture without the gasket. The difference from its expected position is then used to correct both positions.
 
     The aim of the mount may differ from the readings of its potentiometers by more than the width of a hole's border.
     But the arm knows the position of the base to within less than this width. If the hole is not found, the positions
