@@ -175,8 +175,8 @@ class RunningSystem(Protocol):
 
     @property
     def channels(self) -> tuple[Channel, ...]:
-        """The channels that are recorded in each servo period. The joints and the hand are always recorded, and are
-        not listed here.
+        """The channels that are recorded in each servo period. The joints and the hand are also recorded, but are not
+        listed here.
         """
         return ()
 
@@ -264,7 +264,7 @@ class RunningSystem(Protocol):
         return "", ()
 
     def built(self) -> Findings:
-        """Return the referee's findings on the finished work, from before the arm undid the work. The result is empty
+        """Return the findings that the referee made before the arm undid the finished work. The result is empty
         if the work was not undone, or was not judged.
         """
         return {}
@@ -476,11 +476,11 @@ class System(ABC):
         return {}
 
     def page(self, folder: Path) -> bytes | None:
-        """Make the report of a finished run from the system's own files in the run's folder. Return None if this
-        system's runs use the report that is the same for all systems.
+        """Make the report of a finished run from the system's own files in the run's folder. Return None if the run
+        uses the report that is common to all systems.
         """
         return None
 
     def parts(self, folder: Path) -> Sequence[PagePart]:
-        """Return sections for the report of the run in `folder` that only this system's reports have."""
+        """Return the sections that this system adds to the report of the run in `folder`."""
         return ()

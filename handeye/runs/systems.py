@@ -21,7 +21,7 @@ def system_of(setup: Setup) -> System:
 
 
 def system_of_files(folder: Path) -> System | None:
-    """Return the system whose own files are in the folder of a run, or None if the folder has no system's own files."""
+    """Return the system whose own files are in the folder of a run, or None if no system has files there."""
     found = (e for e in entries().values() if any((folder / name).is_file() for name in e.files))
     return next((system_named(entry.name) for entry in found), None)
 

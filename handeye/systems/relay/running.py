@@ -413,5 +413,5 @@ class RunningRelay(RunningSystem):
             self._held.append(event)
 
     def _stage(self, name: str) -> str:
-        """Return the relay's name of a stage. `name` is its name in the program."""
+        """Return the name that a stage has in the relay. `name` is the stage's name in the program."""
         return name if name in self._listing.stages else self.leg.stage

@@ -96,8 +96,7 @@ def touch(
     shows that a gauge is beyond its limit, the present position becomes the goal.
 
     The guard is set only when the jolt at the start of the motion has died away, so that only the block can trip the
-    guard. If the guard were set before the start, the jolt could trip it while the hand is still in the air;
-    `Touch.trips` says whether it would.
+    guard. `Touch.trips` says whether the jolt would trip the guard in the air if the guard were set before the start.
 
     Raises:
         BadArgument: a value is out of range.

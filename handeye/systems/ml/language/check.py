@@ -144,7 +144,7 @@ class _Check:
         )
 
     def pairs(self, line: Line) -> Iterator[Diagnostic]:
-        """Check that no statement ends a loop or a subroutine that nothing begins, and that each loop has an end."""
+        """Check that each end of a loop or a subroutine has a beginning, and that each loop has an end."""
         code = line.statement.code
         if code in _PAIRS and _PAIRS[code] not in self._codes:
             yield mistake("M13", f"{code} has no {_PAIRS[code]} in this program", line.spans[0])

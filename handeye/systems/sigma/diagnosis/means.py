@@ -242,7 +242,7 @@ class Lost:
 
 
 def moves(at: Technician, *axes: str) -> Lost:
-    """Move all these axes out together at full speed, and then move them back slowly. The low switches show how many
+    """Move the axes out together at full speed, and then move them back slowly. The low switches show how many
     steps the motors lost on the way.
     """
     bus = at.bus

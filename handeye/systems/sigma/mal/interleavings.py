@@ -385,8 +385,8 @@ def schedule_lines(schedule: Sequence[Act]) -> list[str]:
 
 
 def unreached_lines(program: MalProgram, result: Interleavings) -> str:
-    """Name the lines that are executed in no order of the tasks. Returns a text such as `lines 40, 70 to 90`, or an
-    empty text if each line is executed in some order.
+    """Name the program lines that are not executed in any order of the tasks. Returns a text such as `lines 40, 70 to
+    90`, or an empty text if each line is executed in some order.
     """
     numbers, spans = [line.number for line in program.lines], list[list[int]]()
     for before, number in zip([None, *numbers], numbers, strict=False):
