@@ -45,7 +45,7 @@ def macros_of(text: str) -> dict[str, MacroBody]:
 
 
 def ends(line: Line) -> bool:
-    """Return True if a line ends a macro. A blank line and the head of another macro do."""
+    """Return True if a line ends a macro. A macro ends at a blank line, or at the head of another macro."""
     return line.is_blank or any(token.text.upper() == "DEFINE" for token in line.split()[1][:1])
 
 

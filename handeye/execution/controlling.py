@@ -25,7 +25,7 @@ def repeated(periods: Sequence[CommandedPeriod]) -> Controller:
 
 
 def controlled(run: ExecutionContext, controller: Controller, most: int) -> tuple[CommandedPeriod, ...]:
-    """Let a controller command the arm until the controller ends, but for no more than `most` servo periods. Then
+    """Let a controller command the arm until the controller ends, or until `most` servo periods have passed. Then
     brake until the arm stands still. Returns the commands.
 
     Earlier steps can no longer be undone: a reversal must begin where the last step ended, and the controller has

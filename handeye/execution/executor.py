@@ -108,8 +108,9 @@ class Executor:
         self._leave()
 
     def answer(self, choice: Choice) -> None:
-        """Carry out the operator's choice. The operator chooses after the program has called, and after a reversal. If
-        a reversal has stopped with an error, `proceed` continues this reversal, and any other choice ends it.
+        """Carry out the operator's choice. The operator makes a choice after each call of the program, and after a
+        reversal. If a reversal has stopped with an error, `proceed` continues this reversal, and any other choice ends
+        it.
         """
         run, stage = self.run, self.state.stage
         assert stage is not None or choice == "proceed"
@@ -125,8 +126,8 @@ class Executor:
         self._leave("skipped" if choice == "skip" else "done")
 
     def undo(self, undoing: ReversalOrder) -> None:
-        """Have executed steps reversed, beginning with the last one, until `undoing.left` steps remain. Raises Refused
-        if there are no steps to reverse.
+        """Order the arm to reverse executed steps, beginning with the last one, until `undoing.left` steps remain.
+        Raises Refused if there are no steps to reverse.
         """
         if undoing.asked_by == "person":
             self.state.unwound.clear()

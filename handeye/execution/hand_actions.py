@@ -199,7 +199,7 @@ def _unlike(run: ExecutionContext, least: float, maximum: float | None) -> GapUn
     """Compare the gap with the nominal thickness of the object that the hand should hold at this place. Returns None
     if the two agree, if the hand is empty, or if the object is unknown.
 
-    The program gives limits of the gap. When the gap is outside these limits for the first time, the gap is not
+    The program gives limits for the gap. When the gap is outside these limits for the first time, the gap is not
     reported here, because the hand may only hold the object askew. If the gap is the same at the next grasp, the gap
     is reported.
     """

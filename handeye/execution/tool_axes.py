@@ -29,16 +29,17 @@ class ToolAxes(Axes):
     """The axes x, y, z (m, in W), O, A, T (rad) and the gap of the hand (m). A channel gives the force that the
     hand exerts on the world.
 
-    A goal drives the arm towards it for one servo period. No axis exceeds its speed limit. No path is planned: the
-    caller must give a goal in every period, or the watchdog sets the brakes. Force is measured relative to the force
-    at the last call of `tare`. The estimate of the force is good if the drive knows the friction of the joints
-    (`measure_joints`). The estimate is one period late. For example, a descent onto the table that should stop at 6 N
-    stops at a greater force: at 6.1 to 7.5 N if the speed is .01 m/s, at 17 N at .025 m/s, and at 34 N at .05 m/s.
+    Each goal moves the arm for one servo period, in the direction of the goal. No axis exceeds its speed limit. No
+    path is planned: the caller must give a goal in every period, or the watchdog sets the brakes. Force is measured
+    relative to the force at the last call of `tare`. The estimate of the force is good if the drive knows the friction
+    of the joints (`measure_joints`). The estimate is one period late. For example, a descent onto the table that
+    should stop at 6 N stops at a greater force: at 6.1 to 7.5 N if the speed is .01 m/s, at 17 N at .025 m/s, and at
+    34 N at .05 m/s.
     """
 
     def __init__(self, drive: ArmDrive, name: str = "tool", reach: float = 1.5) -> None:
-        """Take control of an arm that the servo holds in place. The coordinates x, y and z of a goal must not exceed
-        `reach` (m), and the arm must be able to reach the goal.
+        """Take control of an arm that the servo holds in place. The coordinates x, y and z of a goal must be between
+        -`reach` and `reach` (m), and the arm must be able to reach the goal.
         """
         self.name, self._drive = name, drive
         self._start = self._goal = self._pose(drive.state.q)  # set-points before and at the end of a period

@@ -39,7 +39,7 @@ class SettledState:
         return float(np.linalg.norm(self.pose(body)[:3, 3] - there))
 
     def strayed(self, bodies: Sequence[str], places: Sequence[str]) -> float:
-        """Return how far the bodies named in `bodies` are from given places: the greatest distance (m). The places are
+        """Return the greatest distance (m) of one of the bodies in `bodies` from its place. The places are
         the initial positions of the bodies named in `places`.
 
         Any body may be at any place, but only one body at each place. The nearest pairs of a body and a place are

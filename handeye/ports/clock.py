@@ -38,8 +38,8 @@ class Clock(ABC):
 
     @property
     def next_event(self) -> Fraction | None:
-        """Seconds until the next event, or None if no event will follow. Only events for which tasks may wait, and
-        which happen without a command, count.
+        """Seconds until the next event, or None if no event will follow. An event counts only if tasks may wait for
+        it, and if it happens without a command.
         """
         return None
 

@@ -72,7 +72,7 @@ class NoAnswer(BusFault):
 
 
 class StrayAnswer(BusFault):
-    """Raised if an answer was longer than the answer to the question should be."""
+    """Raised if a microcomputer sent more bytes than belong to the answer."""
 
     def __init__(self, number: int) -> None:
         super().__init__(f"STRAY {number}: a byte arrived that no question asked for")

@@ -66,7 +66,7 @@ class HandPort(ABC):
 
     @abstractmethod
     def drive(self, gap: float, grip: float) -> None:
-        """Set the gap between the fingers that the hand should reach (m), and the greatest force of each finger (N).
+        """Set the gap (m) that the fingers should reach, and the greatest force of each finger (N).
         Raises InvalidInput unless both values are finite.
         """
 
