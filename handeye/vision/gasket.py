@@ -234,9 +234,9 @@ def _centre(
 ) -> tuple[float, float] | None:
     """Find the centre (x and y, in metres) of the hole that is expected at `place` (in metres, shape (3,)).
 
-    As in the location of the base, the characteriser finds the hole. Then a circle is fitted to the border that is
-    seen around the hole's centre. If an aligning pin blocks one of the characteriser's four beams, the expected place
-    replaces this centre.
+    As in the location of the base, the characteriser finds the hole. Then a circle is fitted to the border of the
+    hole. Rays from the hole's centre find this border. If an aligning pin blocks one of the characteriser's four
+    beams, the rays start from the expected place instead.
     """
     seed, reach = _seen(view, place, hole)
     blob = characterise(scan, seed, step, reach, wide=True, beyond=beyond)
@@ -254,13 +254,14 @@ def _seen(view: View, place: Array, hole: Hole) -> tuple[tuple[float, float], fl
 
 
 def _bulge(new: Scan, old: Scan, view: View, centre: Array, hole: Hole, steps: _Steps) -> float | None:
-    """Measure the bulge (m) of a hole's border around the base's hole at `centre` (in metres, shape (3,)). The picture
-    without the gasket (`old`) shows which part of the border is undisturbed.
+    """Measure how far (m) the border of a hole bulges outwards in the difference of the pictures. The centre of the
+    base's hole is `centre` (in metres, shape (3,)). The picture without the gasket (`old`) shows which part of the
+    border is undisturbed.
 
     The gasket's hole and the base's hole overlap, and the border is the outline of these two discs together. Half of
     this border is nearly undisturbed, so the bulge is measured from the median radius. An aligning pin may hide the
-    border of the base's hole. A ray therefore counts only if, in the picture without the gasket, the border is visible
-    where the ray crosses it.
+    border of the base's hole. Therefore a ray counts only if it crosses a visible border in the picture without the
+    gasket.
     """
     radii, (middle, reach) = [], _seen(view, centre, hole)
     for scan, step, beyond in ((old, steps.before, steps.face), (new, steps.after, 0.0)):

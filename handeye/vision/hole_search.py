@@ -74,8 +74,8 @@ def placed(centres: Array, part: Part) -> tuple[float, float, float]:
 
 
 def hole_places(part: Part, pose: tuple[float, float, float], *, screws: bool = False) -> Array:
-    """Return the centres, in W (in metres, shape (n, 3)), of the large holes of a part at a pose, or of its screw
-    holes if `screws` is True.
+    """Return the centres of a part's large holes, in W (in metres, shape (n, 3)), when the part is at a pose. If
+    `screws` is True, return the centres of its screw holes instead.
     """
     x, y, yaw = pose
     c, s = math.cos(yaw), math.sin(yaw)
@@ -167,8 +167,8 @@ class Levels(NamedTuple):
         return cls(face=face, dark=dark)
 
     def step(self, search: HoleSearch) -> float:
-        """Return the least step of intensity at an edge. This is the fraction `contrast` of the difference between the
-        face and a hole, but at least two levels, a few times the noise.
+        """Return the least step of intensity at an edge. The step is the fraction `contrast` of the difference between
+        the face and a hole. The least possible step is two levels, which is a few times the noise.
         """
         return max(2.0, search.contrast * (self.face - self.dark))
 

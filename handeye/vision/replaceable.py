@@ -1,7 +1,7 @@
 """The vision functions that a calling program can replace, and wrappers for the program's own functions.
 
-A wrapper checks the result of the caller's function. The wrapper also computes where the part would appear in the
-picture if it were at the place that the function returned. Reports mark this place.
+A wrapper checks the place that the caller's function returns. The wrapper also computes the outline that a part at
+this place has in the picture. Reports mark this outline.
 """
 
 from collections.abc import Callable, Mapping
@@ -55,8 +55,8 @@ def with_functions(functions: Mapping[str, Callable[..., Any]]) -> VisionFunctio
 
 
 def general_by(name: str, function: Callable[..., Any]) -> General:
-    """Wrap a function that takes a picture, its view and the part, and returns the place x, y (m) of the part's
-    reference point in W, or None if it does not find the part.
+    """Wrap a function that locates a part. The function takes a picture, its view and the part. It returns the place
+    x, y (m) of the part's reference point in W, or None if it does not find the part.
     """
 
     def locate(picture: Picture, view: View, part: Part) -> GeneralLocation | Failure:
@@ -75,8 +75,9 @@ def general_by(name: str, function: Callable[..., Any]) -> General:
 
 
 def specific_by(name: str, function: Callable[..., Any]) -> Specific:
-    """Wrap a function that takes a close-up picture, its view, the part, and the rough place x, y (m), and returns
-    the pose x, y (m), yaw (rad) of the part in W, or None if it does not find the part.
+    """Wrap a function that finds the pose of a part. The function takes a close-up picture, its view, the part, and
+    the rough place x, y (m). It returns the pose x, y (m), yaw (rad) of the part in W, or None if it does not find the
+    part.
     """
 
     def locate(
