@@ -1,5 +1,5 @@
-"""Advances a run step by step until it ends or a stop condition pauses it. While the run advances, passes the states
-that must be kept to the run's observers.
+"""Advances a run step by step until it ends or a stop condition pauses it. The observers of the run receive each state
+that must be kept.
 """
 
 from collections.abc import Callable, Sequence

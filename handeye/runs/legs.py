@@ -30,7 +30,7 @@ class Use(NamedTuple):
 
 
 class Lack(NamedTuple):
-    """A need of a program that no leg can meet, such as a device, and the line of the program that has this need."""
+    """A need that no leg can meet, such as a motor, and the program line that causes the need."""
 
     line: int
     sentence: str
@@ -124,7 +124,7 @@ class LegSystem(ABC):
         return ()
 
     def lacks(self, plan: Record, stage: str, earlier: Sequence[str]) -> Sequence[Lack]:
-        """Return the needs of a stage that no leg can meet. `earlier` gives the stages that earlier legs of the
+        """Return a stage's needs that no leg can meet. `earlier` gives the stages that earlier legs of the
         same program execute.
         """
         return ()

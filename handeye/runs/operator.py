@@ -30,13 +30,13 @@ from handeye.runs.undo_orders import stage_began
 
 
 class Back(Record, frozen=True, kw_only=True):
-    """The answer to put the simulation back to the latest beginning of a stage, given by its index."""
+    """The decision to put the simulation back to the latest beginning of a stage, given by its index."""
 
     stage: int
 
 
 class Unwind(Record, frozen=True, kw_only=True):
-    """The answer to let the arm undo its steps, back to the latest beginning of a stage, and then to continue the
+    """The decision to let the arm undo its steps, back to the latest beginning of a stage, and then to continue the
     program. The stage is given by its index.
     """
 
