@@ -259,7 +259,9 @@ class UndoResisted(CauseRecord, frozen=True, kw_only=True):
 
 
 class HoldOff(CauseRecord, frozen=True, kw_only=True):
-    """During the reversal of a step, the gap (m) differs from `kept` (m). This was the gap when the step was executed."""
+    """During the reversal of a step, the gap (m) differs from `kept` (m). This was the gap when the step was
+    executed.
+    """
 
     gap: float
     kept: float
