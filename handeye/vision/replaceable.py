@@ -1,7 +1,7 @@
 """The vision functions that a calling program can replace, and wrappers for the program's own functions.
 
-A wrapper checks the place that the caller's function returns. The wrapper also computes the outline that a part at
-this place has in the picture. Reports mark this outline.
+A wrapper checks the result of the caller's function. If the result is the place of a part, the wrapper also computes
+the outline that a part at this place has in the picture. Reports mark this outline.
 """
 
 from collections.abc import Callable, Mapping
