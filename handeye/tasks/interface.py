@@ -240,10 +240,10 @@ class Task(AnyTask):
         """
 
     def obligations(self, world: WorldSpec) -> tuple[Obligation, ...]:
-        """Return the obligations of a program. Each obligation belongs to one finding of the referee. It says what the
-        program must show before it ends. By default, there are no obligations. Each finding occurs once. The
-        obligations may depend on what the world asks for, such as the number of screws, but not on the errors of the
-        machines and parts.
+        """Return the obligations of a program. Each obligation belongs to one finding of the referee. The obligation
+        says what the program must show before the program ends. By default, there are no obligations. Each finding
+        occurs once. The obligations may depend on what the world asks for, such as the number of screws, but not on
+        the errors of the machines and parts.
         """
         return ()
 

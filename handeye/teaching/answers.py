@@ -93,7 +93,7 @@ def carry_out(workplace: Workplace, source: Source, *, alone: bool = False) -> A
 
 
 def done(workplace: Workplace, pause: Pause, happened: int = 0) -> LineResult:
-    """Report the steps of the present plan, but leave out its first `happened` events."""
+    """Report the steps that the arm did after event number `happened` of the present plan."""
     runner = workplace.runner
     told = step_summaries(runner.events[happened:], runner.listing, runner.task.measures)
     did = tuple(step for step in told if step.line is not None)

@@ -33,8 +33,8 @@ class Passage:
 
 
 def passages(trace: Trace, span: Span, *, looks: bool) -> tuple[Passage, ...]:
-    """Return the passages of a time span. Times in which the program waits for the camera are left out. If `looks` is
-    True, the video stops at pictures.
+    """Return the passages of a time span. Times during which the program waits for the camera are left out. If `looks`
+    is True, the video stops at pictures.
     """
     pictures = _pictures(trace) if looks else {}
     edges = sorted({*pictures, *(stage.begin for stage in trace.stages_both_ways)})

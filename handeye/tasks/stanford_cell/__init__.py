@@ -1,3 +1,3 @@
-"""What all cells with the Stanford arm have in common: the dimensions, the shapes of metal parts, and the arm with the
-errors of its world.
+"""Parts of all cells with the Stanford arm: dimensions, shapes of metal parts, and the arm with the errors of its
+world.
 """

@@ -1,6 +1,6 @@
-"""Adds pins, screws, tapped holes, and the bit that drives the screws. `handeye/cell/threads.py` simulates the threads
-of these shapes. A scene that uses the shapes must also use the styles that `add_styles` defines. Places and lengths
-are in mm, with z up.
+"""Adds pins, screws, tapped holes, and the bit that drives the screws. `handeye/cell/threads.py` simulates the
+threads. A scene that uses the shapes must also use the styles that `add_styles` defines. Places and lengths are in mm,
+with z up.
 """
 
 from math import cos, nan, pi, sin, sqrt

@@ -10,8 +10,8 @@ explicitly.
 *Clamping.* Two seated screws press gasket and top on the base, and friction holds gasket and top in place. From then
 on, welds hold the two layers, and the contacts between the layers are switched off, because these contacts take most
 of the stack's computing time. The contacts are switched on again if fewer than two screws clamp the layers. They are
-also switched on again if another body, for example the hand or a screw's shank, pushes a layer too hard: sideways with
-more than the friction force, or upwards with more than the clamping force.
+also switched on again if another body pushes a layer too hard: sideways with more than the friction force, or upwards
+with more than the clamping force. This body may be the hand or the shank of a screw, for example.
 """
 
 from typing import Final

@@ -63,7 +63,7 @@ def calls_of(steps: Sequence[int], program: Program, graph: OutcomeGraph) -> tup
 
 
 def _specific(program: Program, number: int) -> set[int]:
-    """Return the errors that are the purpose of a step. For a step with guards, these are the errors of its guards.
+    """Return the errors that a step is meant to raise. For a step with guards, these are the errors of its guards.
     For a step that only checks or examines, these are all errors of the step except the error of the watchdog. For any
     other step, the set is empty.
     """

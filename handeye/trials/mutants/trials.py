@@ -1,5 +1,5 @@
 """Tries the mutants of a program. The proof comes first. If the proof does not refuse a mutant, the mutant is run with
-faults. These are the faults that the missing check would notice.
+the faults that the missing check would notice.
 """
 
 from collections import Counter

@@ -81,8 +81,8 @@ def subset_simulation(
     stream: Callable[[int], np.random.Generator],
     most: int,
 ) -> Iterator[Level]:
-    """Yield one level after the other, at most `most` levels. The levels end earlier when the threshold is the failure
-    itself, or when all worlds of a level have the same margin.
+    """Yield one level after the other, at most `most` levels. The last level comes earlier if its threshold is the
+    failure itself, or if all its worlds have the same margin.
 
     Args:
         first: worlds drawn independently; each further level has as many worlds.

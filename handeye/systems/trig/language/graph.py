@@ -3,7 +3,7 @@ follow it. Its fathers are the steps that lead to it; their number is not limite
 
 One of the edges that lead to a step is the step's own edge, which determines where the step is drawn. All other edges
 to the step are links. Together, the steps' own edges form a tree that starts at the top and contains every step. A
-loop has a partner, called a bloop, above its target step. The bloop is needed to run the loop backward. If several
+loop has a partner, called a bloop, above its target step. The bloop is needed to run the loop backwards. If several
 loops return to one step, the nearest loop below the step owns the nearest bloop above the step. The order in which the
 loops were made does not matter.
 """

@@ -144,7 +144,7 @@ def link(session: Session, given: Arguments) -> None:
 
 
 def _add(session: Session, node: Node, branch: int) -> None:
-    """Add a step that the arm has just executed below the active step, and make the new step the active step."""
+    """Add `node`, a step that was just executed, below the active step. The new step becomes the active step."""
     program = session.program
     program.graph.insert(program.cursor, branch, node)
     program.put_cursor(node.id)

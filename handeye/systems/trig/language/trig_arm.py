@@ -123,7 +123,7 @@ class TrigArm(ABC):
 
     @abstractmethod
     def back(self, goal: Place, halted: Halted, met: float = 0.0) -> Literal["halted"] | Obstacle | None:
-        """Return to an earlier place. `met` is the greatest force (N) that the arm met on the outward move, from the
+        """Return to an earlier place. `met` is the greatest force (N) that the arm met when it moved away from the
         earlier place. The force limit of the return is 1.5 times `met`, or the usual limit of the arm if this limit is
         greater. Returns None if the arm reached the place. If the arm stopped before the place, returns the reason.
         """

@@ -86,7 +86,5 @@ MishapFault = PumpFault[Callable[[float], Mishap]]
 
 
 def always(mishap: Mishap) -> Callable[[float], Mishap]:
-    """Return a function that returns `mishap`, whatever its argument is. The declaration of a fault without a size
-    needs this function.
-    """
+    """Return a function that returns `mishap` for every size. A fault without a size is declared with such a function."""
     return lambda _: mishap

@@ -156,8 +156,8 @@ def by_lamp(still: StillPump, renderer: str) -> Calibration:
     """Calibrate as in a run: the arm measures the errors of its joints, and then carries its lamp through the
     camera's view.
 
-    The calibration is done in a separate cell. Afterwards, its camera's state is copied to the camera of the still
-    cell: lens, aim, and noise generator. Raises CalibrationFailed if the lamp was seen too few times.
+    The calibration is done in a separate cell. Afterwards, the state of that cell's camera is copied to the camera of
+    the still cell: lens, aim, and noise generator. Raises CalibrationFailed if the lamp was seen too few times.
     """
     cell = build_cell(still.world, camera=renderer)
     drive = DriveState.holding(cell.devices.sense(), STANFORD)

@@ -66,8 +66,8 @@ def _make() -> Iterator[Quantity]:
 
 
 def _of(number: int, quantities: Iterator[Quantity]) -> Iterator[Quantity]:
-    """Yield `quantities`, which belong to the screw or hole with the number `number`. If this number is greater than
-    the usual number of screws, the yielded quantities exist only in worlds whose pump has this screw.
+    """Yield `quantities`, which belong to the screw or hole with the number `number`. If `number` is above the usual
+    number of screws, the quantities exist only in worlds whose pump has this screw.
     """
     where = (SCREWS, float(number)) if number > USUAL else None
     return (replace(quantity, where=where) for quantity in quantities)
