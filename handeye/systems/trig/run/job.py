@@ -62,7 +62,9 @@ def setup_of_job(name: JobName, world: WorldSpec, blocks: int | None) -> Checkpo
 
 
 def program_plan(task: str, name: str, text: str, variant: str = "") -> TaughtPlan:
-    """Return the plan of a run in which the user's script `text` teaches the job `task`. TRIG's jobs have no variants."""
+    """Return the plan of a run in which the user's script `text` teaches the job `task`. TRIG's jobs have no
+    variants.
+    """
     return TaughtPlan(job=next(job for job in JOBS if job == task), script=text)
 
 
