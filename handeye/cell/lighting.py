@@ -11,7 +11,7 @@ from handeye.core.pose import Array
 
 Colour = tuple[float, float, float]
 LAMP: Final = "studio_lamp"
-"""Numeric field of a scene that gives the place of the lamp for photographs, in W (m)."""
+"""Name of the numeric field in which a scene states the place (W, m) of the lamp for photographs."""
 CUTOFF: Final = 75.0  # half of the angle of the lamp's cone, degrees
 SHADOWED: Final = 0.5
 """Angle of the inner cone, in which bodies cast shadows, as a fraction of the angle of the lamp's cone. A larger inner

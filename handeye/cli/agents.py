@@ -30,7 +30,7 @@ def mcp(
         ),
     ] = None,
 ) -> int:
-    """Serve an agent (model context protocol over standard input and output): twelve tools to write and judge programs.
+    """Offer an agent twelve tools to write and judge programs, over standard input and output (model context protocol).
 
     Needs the extra `mcp`. The command ends when the agent closes the connection; `handeye resume` resumes a run that
     was in progress.

@@ -33,7 +33,7 @@ explain = editing:explain: Explain a diagnostic code, an error number or an inst
 docs = docs:docs: List the pages of the documentation, or print one.
 exercise = exercises:exercise: List the exercises of the course, show one of them, or grade a program. A grade says in which worlds the program is right, and gives hints.
 lsp = editing:lsp: Serve an editor over standard input and output (language server protocol).
-mcp = agents:mcp: Serve an agent (model context protocol over standard input and output): twelve tools to write and judge programs.
+mcp = agents:mcp: Offer an agent twelve tools to write and judge programs, over standard input and output (model context protocol).
 export: Export a world, or the state of a run, to other programs.
 export mjcf = exports:mjcf: Write a scene that plain MuJoCo can load: scene.xml, its meshes and textures, and a README.
 export glb = exports:glb: Write the solids of a scene for programs that show or measure shapes; check that each solid is closed and has the right mass.
@@ -61,7 +61,7 @@ trials dismantling = batches:dismantling_trials: Assemble in many worlds, make t
 trials disturbed = trials:disturbed_trials: Disturb a finished pump without telling the program, then take the pump apart: does a guard stop the arm before the arm does damage?
 trials compare = batches:compare_trials: Compare one or more batches of trials with the first batch, world by world, to see how much a sensor, or an error of the world, changes the success rate.
 trials base = trials:base_vision_trials: Find the base of the pump on the belt, at many poses: how often it is found, how accurately, and how often in the wrong place.
-trials gasket = trials:gasket_vision_trials: Inspect gaskets by camera: in place, shifted by .3 in, absent, and one on top of another.
+trials gasket = trials:gasket_vision_trials: Inspect the gasket by camera in four cases: in place, shifted by .3 in, absent, and with a second gasket on top.
 trials chaos = trials:chaos_trials: Chaos test: random faults, crashes, interruptions and operator answers; each failure is reduced to one command that repeats it.
 trials mutants = mutants:mutant_trials: Make mutants of a program, each with one check taken away or weakened. Does the proof refuse each mutant? If not, does another check catch the faults for which the changed check was meant?
 trials record = datasets:record: Record runs in many worlds, each with its trace in a folder of its own: for data sets and reports.

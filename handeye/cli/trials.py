@@ -118,7 +118,7 @@ def gasket_vision_trials(
     attempts: AttemptOptions = ATTEMPTS,
     options: SweepOptions = ANY,
 ) -> int:
-    """Inspect gaskets by camera: in place, shifted by .3 in, absent, and one on top of another.
+    """Inspect the gasket by camera in four cases: in place, shifted by .3 in, absent, and with a second gasket on top.
 
     The camera cannot see a second gasket on top of the first, so accepting two gaskets counts as right here; in a
     run, the hand detects two gaskets by their height.

@@ -59,8 +59,8 @@ _FACTOR: Final = Size(unit="", usual=1.04, limits=(0.1, 5.0))
 _PERCENT_LEFT: Final = (0.0, 100.0)
 
 _WITHIN_AGREEMENT: Final = (
-    "Even without a fault, the two sensors of a joint may differ by up to 2 % of a long motion. A wrong factor "
-    "hardly changes a reading that is near zero."
+    "Even without a fault, the two sensors of a joint may differ by up to 2 % of a long motion. If the factor of a "
+    "sensor is wrong, readings near zero are still nearly right."
 )
 _WITHIN_SEARCHES: Final = "The searches and CENTER find parts in spite of small displacements."
 _WITHIN_DRIVES: Final = (
