@@ -43,8 +43,7 @@ class ClaimProof(Record, frozen=True, kw_only=True):
     claim. None if there is no such step.
     """
     undone: int | None = None
-    """Index, in the path, of the last step that undoes a shown phase of the claim; None if no step does so.
-    """
+    """Index, in the path, of the last step that undoes a shown phase of the claim; None if no step does so."""
     unknown: tuple[int, ...] = ()  # steps whose place the program does not fix
     too_many: bool = False  # True if the search for a path was given up because it became too large
 
