@@ -25,7 +25,7 @@ SPREAD: Final = 1.0  # standard deviation of the hole's position error along eac
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class InsertionTruth:
-    """What really happened in an insertion. The program cannot know it."""
+    """A record of what really happened in an insertion. The program has no access to this record."""
 
     peak: float  # greatest resultant of all contacts between pin and plate in any physics step, N
     first: float | None  # time of the first contact, s on the cell's clock

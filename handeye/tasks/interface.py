@@ -45,7 +45,7 @@ class CameraSetup(Record, frozen=True, kw_only=True):
 
 
 class HistoricalTiming(Record, frozen=True, kw_only=True):
-    """How long the work of a task took in 1973 (s)."""
+    """The duration (s) of a task's work in 1973."""
 
     year: int
     program: str  # the program that was timed

@@ -65,7 +65,7 @@ def _add(entity: SceneEntity, truth: Truth, shape: int) -> None:
 
 
 def _short(values: Array) -> list[float]:
-    """Return the numbers rounded to seven digits, which keeps files small."""
+    """Return the numbers rounded to seven digits, to keep files small."""
     return [float(value) for value in values.astype(np.float32)]
 
 

@@ -172,7 +172,7 @@ class Format:
 
 
 def format_of(path: Path) -> Format:
-    """Return the format for a file name. Raises BadArgument if the file extension is not that of a video format."""
+    """Return the format for a file name. Raises BadArgument if no video format has the file's extension."""
     ending = path.suffix.lower()
     if ending == ".mp4":
         try:

@@ -2,9 +2,9 @@
 
 In the difference of the pictures the gasket is a bright blob with two dark holes. There is little difference wherever
 the base or the gasket has a hole. If the gasket is displaced, each dark hole in the difference is therefore the
-*union* of a hole of the gasket and the hole of the base below it. The centre of the union moves by only half the
-displacement. On one side, the border of the union moves by the whole displacement. Therefore both the centre and the
-border are tested. If the gasket is in its place, `gasket_sheet` checks that the gasket is whole.
+*union* of two holes: a hole of the gasket, and the hole of the base below it. The centre of the union moves by only
+half the displacement. On one side, the border of the union moves by the whole displacement. Therefore both the centre
+and the border are tested. If the gasket is in its place, `gasket_sheet` checks that the gasket is whole.
 """
 
 import math

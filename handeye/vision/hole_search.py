@@ -194,8 +194,8 @@ class HoleFinder:
         self._step, self._bright = levels.step(search), search.face * levels.face
 
     def expected(self, place: tuple[float, float], *, shaded: bool = False) -> list[Candidate]:
-        """Find candidates near the places that are expected if the part's reference point is at `place` (x and y,
-        in metres): first the largest hole, then holes around it.
+        """Find candidates near their expected places, if the part's reference point is at `place` (x and y, in
+        metres). The largest hole is found first, and then holes around it.
 
         The second hole is found by beams from the first, at all angles by which the part may be turned. If `shaded`
         is True, a circle of the size of the first hole is fitted, because a shadow blocks one of the four beams of
@@ -213,8 +213,8 @@ class HoleFinder:
         return found
 
     def _circle(self, middle: Array) -> Candidate | None:
-        """Find the largest hole by fitting a circle to the border around a point (u, v), and then a second circle to
-        the border around the fitted centre.
+        """Find the largest hole by fitting two circles. The first is fitted to the border around a point (u, v), and
+        the second to the border around the centre of the first circle.
         """
         diameter = self._part.holes[0].diameter
         width, height = diameter * self._across, diameter * self._down

@@ -140,8 +140,8 @@ def arm() -> Iterator[Quantity]:
 
 
 def _friction() -> Iterator[Quantity]:
-    """Yield the Coulomb friction of the joints. According to the paper, a released arm stays in place; this says
-    nothing about the friction of joint 1, which carries no weight.
+    """Yield the Coulomb friction of the joints. According to the paper, a released arm stays in place. This statement
+    does not concern joint 1, because joint 1 carries no weight.
     """
     means = STANFORD.compliance.friction
     what = (

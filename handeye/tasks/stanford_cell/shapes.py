@@ -109,8 +109,8 @@ class Shaper:
         return wedges
 
     def group(self, body: mujoco.MjsBody, shapes: str) -> mujoco.MjsBody:
-        """Add a body, fixed to a part, for some of the shapes of the part: its bores, or its lands (the small raised
-        faces on which the part rests).
+        """Add a separate body for the bores of a part, or for its lands (the small raised faces on which the part
+        rests). The body is fixed to the part.
 
         The simulator first searches for contacts between bodies, then between their shapes. Two stacked parts touch
         only at their lands, and only fasteners touch the many wedges of bores. If lands and bores are in bodies of

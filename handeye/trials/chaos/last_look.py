@@ -1,6 +1,6 @@
 """Decides whether a fault spoiled finished work too late to be noticed. No program can notice a fault that comes after
 the program's last look at the spoiled work. The proof of the program (`handeye.proof`) names the steps that look at
-the work: these steps show a claim on which a finding of the referee rests.
+the work. Each of these steps shows a claim on which a finding of the referee rests.
 """
 
 from collections.abc import Iterable, Mapping, Sequence

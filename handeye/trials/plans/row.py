@@ -23,7 +23,7 @@ class Contact(Record, frozen=True, kw_only=True):
 
 
 class SearchEnd(Record, frozen=True, kw_only=True):
-    """How one search of a trial ended."""
+    """The outcome of one search of a trial."""
 
     at: str  # The position around which the program searched
     places: int  # number of places tried, including the first

@@ -42,7 +42,7 @@ class LimitingPart(Record, frozen=True, kw_only=True):
 
 
 class Estimated(Record, frozen=True, kw_only=True):
-    """What subset simulation found about one kind of failure."""
+    """The results of subset simulation for one kind of failure."""
 
     failure: FailureKind
     reached: bool

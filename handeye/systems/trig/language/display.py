@@ -52,8 +52,8 @@ class Elbow:
 @dataclass(slots=True)
 class _Chain:
     """A chain of steps, with the chains to its right. The keys of `hung` and `shift` are the rows of the guarded
-    steps. For each such step, `hung` gives the chain that begins with the guarded son of the step, and `shift` gives
-    the number of columns from the step to that chain.
+    steps. For each such step, `hung` gives the chain that begins with the step's guarded son. `shift` gives the number
+    of columns from the step to that chain.
     """
 
     items: list[tuple[Node, bool, str]] = field(default_factory=list)

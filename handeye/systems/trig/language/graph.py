@@ -58,7 +58,7 @@ class Node:
 
     @property
     def recent_father(self) -> int:
-        """The father that was active last or, if that is unknown, the newest father."""
+        """The father that was active most recently. If that father is unknown, the newest father."""
         if self.last_father in self.fathers:
             return self.last_father
         return self.fathers[-1] if self.fathers else NONE

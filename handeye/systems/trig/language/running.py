@@ -104,7 +104,7 @@ def _off_hold(kept: float, arm: TrigArm) -> HoldOff | None:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RunResult:
-    """How a run ended: the number of executed steps, and the reason for the end."""
+    """The result of a run: the number of executed steps, and the reason for the end."""
 
     steps: int  # executed or reversed
     end: Literal["count", "none", "halted", "beginning", "forgotten", "deleted", "stopped"]

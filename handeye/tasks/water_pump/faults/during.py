@@ -1,9 +1,9 @@
 """Faults that begin during a run: mishaps, caused by a person's hand or by chance.
 
-Each mishap begins with a stage and lasts a stated time. A part that is taken away or lost is put on the tray below
-the floor, where nothing touches it; the hand that takes it is not simulated. A push is modelled as a force. A hand
-that moves the base is modelled as a spring between the base and a point that moves at constant speed; friction
-carries along the parts on the base.
+Each mishap begins with a stage and lasts a stated time. A part that is taken away or lost is put on the tray below the
+floor, where nothing touches it; the hand that takes it is not simulated. A push is modelled as a force. A hand that
+moves the base is modelled as a spring between the base and a point that moves at constant speed. Friction carries
+along the parts on the base.
 """
 
 from collections.abc import Callable, Iterator, Sequence

@@ -64,7 +64,7 @@ def misfit(measured: SettledState, layer: str, hole: int) -> float:
 
 
 def clearance(measured: SettledState, layer: str, hole: int) -> float:
-    """Return the radial clearance (m) of a screw's shank in the hole of a layer, which is the gasket or the top."""
+    """Return the radial clearance (m) of a screw's shank in a hole of the gasket or the top."""
     model = measured.model
     return float(model.site(f"{layer}_hole{hole}").size[0] - model.geom(f"shank{hole}").size[0])
 
@@ -154,8 +154,8 @@ def screw_deviation(measured: SettledState, screw: int, hole: int) -> float:
 
 
 def rotor_deviation(measured: SettledState) -> float:
-    """Return the greater of two distances (m): the distance of the rotor from its bearing on the top, and the
-    distance of the end of the crank pin from its nominal position.
+    """Return the greater of two distances (m): from the rotor to its bearing on the top, and from the end of the crank
+    pin to its nominal position.
     """
     model, size = measured.model, dimensions()
     height = size("top.flange") + size("top.hub_height")
