@@ -157,8 +157,8 @@ def of_plans(kind: Kind) -> Iterator[Task]:
 
 
 def _ours() -> dict[str, str]:
-    """Return, for each task that belongs to handeye or to one of its systems, the MODULE:NAME from which the task is
-    imported.
+    """Return the addresses from which the tasks of handeye and of its systems are imported. The keys are the names of
+    the tasks, and the values have the form MODULE:NAME.
     """
     return _BUILT_IN | {name: place for entry in entries().values() for name, place in entry.tasks.items()}
 

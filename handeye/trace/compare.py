@@ -1,5 +1,6 @@
-"""Compares two traces: finds their first difference, and whether they differ only in the last digits of
-numbers."""
+"""Compares two traces. Finds their first difference, and checks whether the traces differ only in the last digits of
+numbers.
+"""
 
 from collections.abc import Iterator
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""Finds the first quantity in which two messages of a trace differ, and describes the difference in words."""
+"""Finds the first quantity that has different values in two messages, and describes the difference in words."""
 
 from collections.abc import Callable, Iterator, Mapping
 from itertools import zip_longest

@@ -62,8 +62,8 @@ class Recorder:
     ) -> None:
         """Begin a trace. An unfinished trace of another run at this path is replaced.
 
-        `plan` is the content of `plan.json`. To resume a trace, give its content as `old`, and the events with which
-        it begins as `prefix`. The content may be incomplete.
+        `plan` is the content of `plan.json`. To resume a trace, give its content as `old`, and its first events as
+        `prefix`. The content may be incomplete.
         """
         self._path, self._frames, self._looks, self._plan = path, frames, looks, plan
         self._waiting: list[tuple[ServoPeriod, Poses, Mask]] = []

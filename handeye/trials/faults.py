@@ -132,8 +132,7 @@ def chosen(catalogue: Catalogue, names: Sequence[str]) -> list[FaultKind]:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FaultWork:
-    """Executes a plan once for each fault. The condition of a case is the fault in the form in which users type
-    it."""
+    """Executes a plan once for each fault. The condition of a case is the fault as users type it."""
 
     plan: Plan
     world: WorldSpec  # World of every case, without its seed and fault
@@ -173,7 +172,7 @@ class FaultWork:
 def usual(
     catalogue: Catalogue, kinds: Sequence[FaultKind], stage: int | None, stages: int
 ) -> dict[str, Fault]:
-    """Return the faults at their usual sizes. The keys are the faults in the form in which users type them. If a fault
+    """Return the faults at their usual sizes. The keys are the faults as users type them. If a fault
     can begin during a run, it begins at the stage `stage` or, if `stage` is None, at the usual stage of the fault.
     `stages` is the number of stages of the program.
     """

@@ -163,7 +163,7 @@ class InsertionRow(TrialRow, frozen=True, kw_only=True):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class InsertionWork:
-    """Executes the trials of a case under the case's condition, which is given by its name."""
+    """Executes the trials of a case. The case gives the name of its condition."""
 
     conditions: Mapping[str, Condition]
 

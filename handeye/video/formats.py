@@ -1,5 +1,4 @@
-"""Video formats: animated WebP and WebM, which OpenCV writes, and MP4, which needs the optional dependency
-`mp4`."""
+"""Video formats: animated WebP, WebM and MP4. OpenCV writes WebP and WebM. MP4 needs the optional dependency `mp4`."""
 
 import os
 import re

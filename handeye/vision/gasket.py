@@ -145,7 +145,7 @@ def _as_seen(old: Scan, view: View, part: Part, places: Array) -> Array:
     picture without the gasket. The difference from its expected position is then used to correct both positions.
 
     The aim of the mount may differ from the readings of its potentiometers by more than the width of a hole's border.
-    But the arm knows the position of the base to within less than this width. If the hole is not found, the positions
+    But the arm knows the position of the base with a smaller error. If the hole is not found, the positions
     are not corrected.
     """
     for _ in range(ROUNDS):

@@ -33,8 +33,8 @@ def noise(picture: Picture) -> float:
     """Estimate the noise of a picture, as a standard deviation in intensity levels. The estimate is computed from the
     deviation of each point from the mean of its neighbours on the same picture line.
 
-    The estimate uses the median of these deviations, on which the few edges in a picture have little effect. Points
-    that are completely black or completely white show no noise and do not count.
+    The estimate uses the median of these deviations, because the few edges in a picture hardly change the median.
+    Points that are completely black or completely white show no noise and do not count.
     """
     levels = picture.astype(np.int16)
     counts = (levels > 0) & (levels < _WHITE)

@@ -48,8 +48,8 @@ BUILT_IN: Final = VisionFunctions()
 
 
 def with_functions(functions: Mapping[str, Callable[..., Any]]) -> VisionFunctions:
-    """Return the vision functions. For each instruction that is a key of `functions`, the given function replaces
-    handeye's own function.
+    """Return the vision functions. If an instruction is a key of `functions`, the given function replaces handeye's
+    own function for this instruction.
     """
     return VisionFunctions(**{word.lower(): function for word, function in functions.items()})
 

@@ -194,7 +194,7 @@ def hand() -> Iterator[Quantity]:
 
 
 def rubbing(kinds: Sequence[str]) -> Iterator[Quantity]:
-    """Yield, for each named kind of shape, the relative error of its coefficient of friction."""
+    """Yield one quantity for each kind of shape in `kinds`: the relative error of the coefficient of friction."""
     yield from group(
         "friction", {name: Uniform(15.0) for name in kinds}, "%",
         "Relative deviation of the coefficients of friction from their values in the drawing.", least=-100.0,

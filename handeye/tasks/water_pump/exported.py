@@ -1,4 +1,5 @@
-"""Exports the pump's cell to other programs, with readable names, the screws in their holes, and no mechanisms.
+"""Exports the pump's cell to other programs. In the export, names are readable, screws are in their holes, and there
+are no mechanisms.
 
 In the simulated cell, a carrier represents a screw in its thread, and the screw itself lies on a tray below the
 floor (`cell/threads.py`). In the export, the screw is in its hole, at the pose of the carrier, welded to the

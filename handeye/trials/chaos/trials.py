@@ -185,7 +185,7 @@ def _silent(schedule: Schedule, carried: ScheduleRun, start: Checkpoint) -> tupl
     the failures that the program should have noticed. The second list has the failures that faults of the schedule
     caused after the program's last look.
 
-    A completed stage is judged by the findings that must hold at the end of this stage and later. If such a finding
+    A completed stage is judged by the findings that must hold from the end of this stage on. If such a finding
     fails, the run continues, because a later check of the program may notice the failure. The failure is silent only
     if the program ends with a wrong pump.
     """

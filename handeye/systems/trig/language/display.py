@@ -30,7 +30,7 @@ from handeye.systems.trig.language.styled import UNICODE, Line, Style, Symbols, 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Cell:
     """A step at its place on the display, or a link to a step whose place is elsewhere. For the first step of a
-    branch, `branch` is `n` (normal) or `g` (guarded); for all other steps, it is empty.
+    branch, `branch` is `n` (normal) or `g` (guarded). For all other steps, `branch` is empty.
     """
 
     row: int
@@ -227,7 +227,7 @@ def step_words(graph: Graph, positions: Positions, cell: Cell, symbols: Symbols)
 
 
 def loop_words(graph: Graph, node: Node, symbols: Symbols) -> str:
-    """Return a loop in the form in which users type it: the target step and the count."""
+    """Return a loop as users type it: the target step and the count."""
     target = graph.target(node)
     name = UNNAMED if target is None else target.name or UNNAMED
     return f"LOOP {_cut(name, symbols)} {node.wanted}"

@@ -150,7 +150,7 @@ class Graph:
         return Node(id=self._next - 1, type=type, sons=[NONE, NONE] if type == "guarded" else [NONE])
 
     def attach(self, father: int, branch: int, son: int, *, link: bool = False) -> None:
-        """Make the node `son` the son of the node `father` on a branch, in place of the present son on this branch."""
+        """Make the node `son` the son of the node `father` on a branch. It replaces the present son on this branch."""
         node = self[father]
         before, node.sons[branch] = node.sons[branch], son
         node.links.discard(branch)

@@ -192,7 +192,7 @@ def _turning(settled: SettledState) -> Finding:
 
 
 def judge_pins(truth: Truth) -> Findings:
-    """Judge whether each aligning pin stands in a hole of the base that is meant for a pin. Each pin is judged twice:
+    """Judge whether each aligning pin stands in one of the holes that the base has for pins. Each pin is judged twice:
     as the arm left it, and after it has settled. The worse finding counts.
     """
     left, settled = _as_left_and_settled(truth)

@@ -23,8 +23,8 @@ Grain = Callable[[np.random.Generator], Array]
 
 
 def add_textures(spec: mujoco.MjSpec) -> None:
-    """Give the materials their grain. Each grain is computed with a random generator of its own with a fixed seed, so
-    the grain is always the same.
+    """Give the materials their grain. Each grain has its own random generator with a fixed seed, so the grain is
+    always the same.
     """
     for name, pixels in _pixels().items():
         texture = spec.add_texture(name=name, type=mujoco.mjtTexture.mjTEXTURE_2D)
