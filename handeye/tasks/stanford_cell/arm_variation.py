@@ -105,7 +105,7 @@ def arm() -> Iterator[Quantity]:
             "37 to 146 times this noise, so the converter does not show the noise."),
         group("arm.tachometer_step", numbered(Step, *rate_step(STANFORD).tolist()), _RATES,
             f"One step of the converter of a tachometer: {SENSE_BITS} bits over the range of the joint's speeds in "
-            "both directions. Data sheet of 1974; we infer that the range ends at the greatest speed."),
+            "both directions. Data sheet of 1974; we infer that the range ends at the joint's greatest speed."),
         group("arm.torque_step", numbered(Step, *torque_step(STANFORD).tolist()), _TORQUES,
             f"One step of the converter that sets the torque of a drive: {TORQUE_BITS} bits over the range of the "
             'drive\'s torques in both directions. Data sheet of 1974: "8 bits or more".'),
