@@ -28,9 +28,9 @@ another place.
 _AWAY: Final = 2.0  # distance of the sky from the middle of the scene, divided by the size of the scene
 _GRAZING: Final = 0.2  # least height of a point of the sky, divided by its distance
 _WANDER: Final = 0.07
-"""How far the middle of the map of shadows moves between exposures, divided by the size of the scene. The map has
-coarse points. They fall on different places in each exposure, so the shadows in the mean of all exposures have smooth
-edges.
+"""How far the middle of the map of shadows moves between exposures, divided by the size of the scene. The map is
+coarse, so the shadows of one exposure have stepped edges. Because the map moves, the steps differ between exposures,
+and the mean of all exposures has smooth edges.
 """
 
 

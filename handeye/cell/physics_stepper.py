@@ -65,8 +65,8 @@ most 80 N, and the boom of the arm with at most 200 N. The remaining factor of 3
 """
 _WHOLE_STATE: Final = int(mujoco.mjtState.mjSTATE_INTEGRATION)
 RESTING: Final = 1e-2
-"""A joint that moves no faster than this speed (rad/s, m/s) counts as at rest. Our choice: a joint held by friction
-creeps at less than 1e-4.
+"""A joint that moves no faster than this speed (rad/s, m/s) counts as at rest. The limit is our choice. It is well
+above the creep of a joint that friction holds: less than 1e-4.
 """
 _STIFFEST: Final = 0.9999  # MuJoCo's limit for the impedance of a constraint
 _JUDGED: Final = 1000  # sets of pairs of bodies that are remembered

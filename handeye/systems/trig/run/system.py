@@ -40,7 +40,10 @@ class TaughtSystem(System):
         places=("PLACE is a line number, a step's name, or a kind of step (LOOP, GRASP). WHAT is one of",),
         units="millimetres, degrees, newtons",
         commands={
-            "proceed": "repeat the step that called the operator, forwards or backwards",
+            "proceed": (
+                "repeat the step that called the operator; while the program runs backwards, try again to undo "
+                "this step"
+            ),
             "retry": "the same as `proceed`",
             "skip": "end the program here; not possible while the program runs backwards",
         },
