@@ -42,8 +42,8 @@ UNDETECTED: tuple[Outcome, ...] = ("unnoticed", "unbraked", "silent")
 
 PANIC: Final = FaultKind(
     name="panic",
-    meaning="A person presses the panic button while the arm moves. In a run, press Ctrl-C; the option --fault does "
-    "not accept the panic button.",
+    meaning="A person presses the panic button while the arm moves. The option --fault does not accept the panic "
+    "button; to press it in a run, press Ctrl-C.",
     usual_stage=4,
     expected=ExpectedDetection(calls=("stopped by the panic button; the brakes are set",)),
 )
@@ -139,8 +139,8 @@ class FaultWork:
     faults: Mapping[str, Fault]
     camera: str
     sound: Path | None = None
-    """Folder of the fault-free runs. A fault may begin later than the first stage. The run with this fault then starts
-    from a checkpoint of a fault-free run. If the folder is None, every run starts at its beginning.
+    """Folder of the fault-free runs. If a fault begins after the first stage, its run starts from a checkpoint of a
+    fault-free run. If the folder is None, every run starts at its beginning.
     """
 
     def __call__(self, case: Case) -> list[FaultRow]:

@@ -13,8 +13,8 @@ from handeye.core.pose import Array
 
 SIDES: Final = 32  # Sides of the prism that stands for a cylinder
 CREASE: Final = np.cos(np.radians(35.0))
-"""Cosine of the smallest angle between the normals of two adjacent faces at which their common edge is drawn as sharp.
-If the angle is smaller, the faces are drawn as one curved surface.
+"""Cosine of an angle. If the normals of two adjacent faces differ by this angle or more, the edge between the faces is
+drawn as sharp. If they differ by less, the faces are drawn as one curved surface.
 """
 
 

@@ -125,8 +125,8 @@ class ScheduleResult(Record, frozen=True, kw_only=True):
     ended: str  # The kind of its last pause; `error`: an exception that should never occur
     broken: tuple[Violation, ...]
     unseen: tuple[Violation, ...] = ()
-    """Failed findings that the program could not notice, on a pump that it reported as right. Either a scheduled fault
-    spoiled the pump after the program had last looked at it, or the damage was too small to notice.
+    """The program reported the pump as right, but these findings failed, and the program could not notice this. Either
+    a scheduled fault spoiled the pump after the program had last looked at it, or the damage was too small to notice.
     """
 
     @property

@@ -169,8 +169,8 @@ def _check(row: RareRow, case: RareCase) -> None:
     """Raise InvalidInput if a row is of another world, or if its run must be repeated."""
     if row.seed != case.seed or row.world not in ("", world_digest(case.world)):
         raise BadFile(
-            f"run {row.trial} of {quoted(row.condition)} is in a different world from the one that this command "
-            "would try"
+            f"run {row.trial} of {quoted(row.condition)} was tried in one world, and this command would try it in "
+            "another"
         )
     if row.to_be_tried_again:
         raise Refused(
