@@ -152,8 +152,8 @@ def _friction() -> Iterator[Quantity]:
     yield from group(
         "arm.friction", dict([first]), _TORQUES[:1], what, nominal=means[0], least=0.0,
         unsourced="the friction of the other joints is inferred from the paper: when the arm is released, these "
-        "joints do not move under the weight of the links. Joint 1 carries no weight, so the paper says nothing "
-        f"about its friction. {DOUBLED}",
+        "joints do not move under the weight of the links. Joint 1 carries no weight, so this observation says "
+        f"nothing about the friction of joint 1. {DOUBLED}",
     )  # fmt: skip
     yield from group(
         "arm.friction", dict(others), _TORQUES[1:],

@@ -146,8 +146,8 @@ def _holes() -> Iterator[Quantity]:
         for hole in range(1, max(MAKES) + 1):
             yield from _of(hole, group(
                 f"holes.{part}.{hole}", {"x": Normal(0.0015), "y": Normal(0.0015)}, "in",
-                f"Position of a screw hole of the {part}, relative to its drawing. The holes of the base are "
-                f"tapped; those of gasket and top are drilled separately.",
+                f"Deviation of a screw hole of the {part} from its place in the drawing. The holes of the base are "
+                "tapped; those of gasket and top are drilled separately.",
                 unsourced="no drawing of the pump is known; two sigma are +-.003 in, the accuracy of a drilling jig. "
                           "Bound: +-.004 in for lengths of 6 to 30 mm and +-.006 in for lengths of 30 to 120 mm, "
                           "class f of ISO 2768-1.",
