@@ -107,7 +107,9 @@ def disturbed(plan: Plan, world: WorldSpec, camera: str, name: str) -> Disturban
         stopped=runner.call is not None and brakes_hold(runner.arm_cell),
         at=undone[-1].text if undone else "",
         line=undone[-1].place if undone else "",
-        message=result.message if runner.call is not None else wrong or "all undone, and every part is back",
+        message=result.message
+        if runner.call is not None
+        else wrong or "all work is undone, and every part is back",
         moved=round(moved, 3),
         part=part,
         felt=round(max([*met, cause.force] if isinstance(cause, UndoResisted) else met, default=0.0), 2),

@@ -44,7 +44,7 @@ class SoundRun:
         found = self.store.at_or_before(position)
         if found is None or found.snapshot is None:
             raise Refused(
-                f"a schedule cannot begin after {counted(position, 'step')}: the run has no stored state that early"
+                f"a schedule cannot begin after {counted(position, 'step')}: no state of the run was stored by then"
             )
         return found
 

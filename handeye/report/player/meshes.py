@@ -36,9 +36,10 @@ class Meshes:
     """
 
     told: list[dict[str, Any]] = field(default_factory=list)
-    """What the page must know about each mesh. `fine` and `coarse` are the two levels of detail: for each level, the
-    index of the first corner and the number of corners in the list of triangles. `scale` is the scale of the points,
-    and `ball` is the bounding sphere. `parts` gives the name and the range of each piece.
+    """The data of each mesh for the page. `fine` and `coarse` are the two levels of detail. The corners of a level are
+    consecutive in the list of triangles; `fine` or `coarse` gives the index of the first corner, and the number of
+    corners. `scale` is the scale of the points, and `ball` is the bounding sphere. `parts` gives the name and the
+    range of each piece.
     """
     _points: list[NDArray[np.uint16]] = field(default_factory=list)
     _normals: list[NDArray[np.int8]] = field(default_factory=list)

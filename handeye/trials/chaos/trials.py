@@ -65,14 +65,14 @@ def after_resuming(carried: ScheduleRun, unbroken: ScheduleRun) -> Iterator[str]
     """Yield the differences between an interrupted run and the same run without interruptions, one sentence
     each."""
     if carried.runner.events != unbroken.runner.events:
-        yield "the events differ from the events without interruptions"
+        yield "the events differ from those of the uninterrupted run"
     if _bytes(carried.folder) != _bytes(unbroken.folder):
-        yield "the trace differs from the trace without interruptions"
+        yield "the trace differs from that of the uninterrupted run"
     if _plain(carried.runner.history[-1]) != _plain(unbroken.runner.history[-1]):
-        yield "the state differs from the state without interruptions"
+        yield "the last state differs from that of the uninterrupted run"
     if carried.pause != unbroken.pause and carried.pause.kind != unbroken.pause.kind:
         kind = unbroken.pause.kind
-        yield f"the run ended with {carried.pause.kind}; without interruptions, it ended with {kind}"
+        yield f"the run ended with {carried.pause.kind}; the uninterrupted run ended with {kind}"
 
 
 def wrong(findings: Findings, done: int, stages: int, holds_from: Mapping[str, int]) -> Findings:

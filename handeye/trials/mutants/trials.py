@@ -29,10 +29,10 @@ from handeye.trials.sweep import Case, Sweep, TrialRow
 Outcome = Literal["refused", "caught", "unnoticed", "silent", "not run"]
 """The outcome of a mutant.
 
-- refused: the proof names a finding that can fail without the mutant noticing it
+- refused: the proof names a finding whose failure the mutant may not notice
 - caught: the mutant stopped in at least one run, and was silent in none
 - unnoticed: in all runs, the mutant ran to its end, and the work is right
-- silent: in a run, the work is wrong, but the mutant reported success
+- silent: in at least one run, the work is wrong, but the mutant reported success
 - not run: the proof does not refuse the mutant, and no run tried the mutant. Either we know no fault that the changed
 check is meant to notice, or no runs were requested
 """

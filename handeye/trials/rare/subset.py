@@ -35,8 +35,8 @@ NORMAL_95: Final = 1.96  # standard deviations
 FAILED: Final = 0.0  # a run whose margin is not above this has failed
 
 Margins = Callable[[int, Sequence[Point]], Sequence[float]]
-"""Function that runs the world of each point. The function takes the number of a level and the points of this level,
-and returns the margin of each run.
+"""Function that executes a run in the world of each point. The function takes the number of a level and the points of
+this level, and returns the margin of each run.
 """
 
 
