@@ -29,8 +29,8 @@ deviations of the scale error of a potentiometer in a world of the level `high`.
 """
 JUMP_STEPS: Final = 4.0
 """Tolerance for the difference between the motions that the two sensors show in one servo period, in converter steps
-of the potentiometer. The tolerance is one step for rounding, plus five standard deviations of the noise. The noise of
-a reading is .2 steps, and .4 steps at the high level.
+of the potentiometer. The tolerance is one step for rounding, plus five standard deviations of the noise in the
+difference of two readings at the high level. The noise of one reading is .2 steps, and .4 steps at the high level.
 """
 STRUCK: Final = 3.0
 """Factor for the uncertainty of a joint's path if the joint is struck. In one servo period, this uncertainty is the

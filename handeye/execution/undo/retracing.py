@@ -133,11 +133,12 @@ def retracing(
 
 
 FALLEN: Final = 0.31 * INCH
-"""Distance (m) by which a held object may have fallen. The gasket of the pump determines this distance: the fingers
-reach .25 in through the gasket (`[gasket_stand]`), which is .06 in thick. If the gasket had fallen much farther, the
-fingers could not hold it again. In the worlds of seeds 8128 and 8124, the gasket fell by 6.0 and 6.7 mm. In the world
-of seed 8724 the gasket fell 8.05 mm and was still held, but this limit stops the reversal, because the height of the
-arm is not exact.
+"""Greatest distance (m) from the place of the grasp at which resistance to a reversal means that the held object
+stands on its support. The object can have fallen by at most this distance before the fingers held it again. The gasket
+of the pump determines the limit: the fingers reach .25 in through the gasket (`[gasket_stand]`), which is .06 in
+thick. If the gasket had fallen much farther, the fingers could not hold it again. In the worlds of seeds 8128 and
+8124, the gasket fell by 6.0 and 6.7 mm. In the world of seed 8724, the gasket fell by 8.05 mm and the fingers still
+held it, but the limit stops the reversal: it has no margin for the error in the height of the arm.
 """
 
 

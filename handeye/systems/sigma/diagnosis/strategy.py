@@ -94,8 +94,8 @@ class Strategy:
         if self._test("strobe", lambda: means.strobe(self._at)).misread:
             raise Found(
                 "computer",
-                "it raises /DATA READY so late that a microcomputer that becomes free during a command misreads the "
-                "command",
+                "it raises /DATA READY too late: if a microcomputer becomes free during a command, the "
+                "microcomputer misreads this command",
             )
 
     # -- wrists and hands, while no motor moves -----------------------------------------------------------------

@@ -159,8 +159,9 @@ def _parts() -> Iterator[Quantity]:
     by_hand = f"the papers do not say how accurately the parts stood on their stands. {DOUBLED}"
     off = {"x": Uniform(0.03), "y": Uniform(0.03), "yaw": Uniform(1.0)}
     played = (
-        "Position within the play that the guides or the hole allow, uniformly distributed. At the level `high`, "
-        "too, the position stays within the play. A pin has no play, because the bevel of its hole centres it."
+        "Position of the screwdriver within the play of its guides, or of a screw within the play of its hole, "
+        "uniformly distributed. At the level `high`, too, the position stays within the play. A pin has no play, "
+        "because the bevel of its hole centres it."
     )
     play = {axis: Uniform(IN_PLAY / 2) for axis in "xy"}
     numbers = range(1, max(MAKES) + 1)
