@@ -150,8 +150,8 @@ class First:
     period: int | None = None  # servo period of the step, counted from 1; None outside servo periods
     differing: QuantityDifference
     next: tuple[AnyEvent | None, AnyEvent | None] = (None, None)
-    """The next event of each run, if the first difference is that the runs have different events. A run has None here
-    if it has ended, or if its step continues with a servo period instead of an event.
+    """The next event of each run in this step. Both are None if the runs differ in something other than their events.
+    One is None if a servo period comes first in its run, or if the step has no further events.
     """
 
     @property

@@ -21,8 +21,8 @@ from handeye.trace.forces import Forces
 from handeye.trace.stages import done_steps
 
 FORCE: Final = 0.2
-"""Greatest error (N) of each component of the force that the report draws: a tenth of the smallest force limit that a
-program gives to a guard.
+"""The report interpolates between some of the recorded forces. This is the greatest error (N) of each component: a
+tenth of the smallest force limit that a program gives to a guard.
 """
 
 

@@ -156,8 +156,8 @@ def _figures(run: RecordedRun) -> Iterator[tuple[int, str]]:
 
 
 _UNTOLD: Final = (OperatorCalled, PanicStopped, ErrorTested, CameraBusy, CameraStarted, PictureTaken)
-"""Kinds of events that add nothing to the reason for an outcome: events without sensor readings, and events that
-report the reason itself.
+"""Kinds of events that the page does not list among the last sensor readings: events without sensor readings, and
+events that only repeat the reason for the outcome.
 """
 _SAID: Final = 4
 

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 _ALIGNED: Final = 4
-"""Alignment of arrays (bytes): a script can then read an array in place."""
+"""Alignment of arrays (bytes). A script can read an aligned array in place."""
 
 
 def packed(header: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]]) -> bytes:

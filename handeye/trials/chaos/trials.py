@@ -42,7 +42,7 @@ def on_disk(carried: ScheduleRun) -> Iterator[str]:
     yield from CheckpointStore(carried.folder / CHECKPOINTS).damaged()
     try:
         if list(effective(read_events(carried.folder / EVENTS))) != carried.runner.events:
-            yield "the event list differs from the events of the run"
+            yield "the events in the event list differ from those of the run"
         msgspec.json.decode((carried.folder / RESULT).read_bytes(), type=Result)
     except (InvalidInput, OSError, msgspec.DecodeError) as fault:
         yield str(fault)
@@ -56,7 +56,7 @@ def in_trace(carried: ScheduleRun) -> Iterator[str]:
         yield str(fault)
         return
     if list(trace.events) != carried.runner.events:
-        yield "the trace differs from the events of the run"
+        yield "the events in the trace differ from those of the run"
     if trace.head.world != carried.runner.setup.world:
         yield "the trace belongs to another world"
 
