@@ -209,8 +209,8 @@ CODES: Final[dict[str, Code]] = {
         "warning",
     ),
     "test-of-no-effect": _warning(
-        "the instruction after a test is another test, so the instructions after both tests do not depend on the "
-        "error of the first test",
+        "a test has no effect because the next instruction is another test: the program continues in the same way "
+        "whether or not the error of the first test was raised",
         "L: CLOSE .1 .2\nSKIPE 2\nSKIPE 7\nJUMP L\nPARK",
     ),
     "test-without-action": _warning("a test has no action directly before it", "SKIPE 23\nPARK"),
