@@ -123,7 +123,7 @@ def gasket_vision_trials(
     The camera cannot see a second gasket on top of the first, so accepting two gaskets counts as right here; in a
     run, the hand detects two gaskets by their height.
 
-    Exit code 0: no shifted or absent gasket was accepted; 3: such a gasket was accepted.
+    Exit code 0: no case with a shifted or absent gasket was accepted; 3: such a case was accepted.
     """
     return attempts.carry_out("gasket", n, options)
 

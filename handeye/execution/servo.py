@@ -72,9 +72,9 @@ class Servo:
     arithmetic: Callable[[ArmModel], ArmArithmetic] = Formulas  # computes an arm at one configuration
     _chain: tuple[ArmModel, ArmArithmetic] | None = field(default=None, init=False)
     _unseen: Array | None = field(default=None, init=False)
-    """How far (rad, m) each joint moved in the last servo period, minus the motion that its rates show. The value is
-    None unless the gap has closed, which shows that an object has shifted in the fingers. Such a shift can move the
-    hand suddenly.
+    """How far (rad, m) each joint moved in the last servo period, minus the motion that its rates show. An object that
+    shifts in the fingers can move the hand so suddenly that the rates do not show this motion. The gap then becomes
+    smaller. The value is None if the gap has not become smaller.
     """
 
     @property

@@ -151,9 +151,9 @@ class MotionChange(Record, frozen=True, kw_only=True):
     before: float | None  # planned duration, s; None if there was no motion
     after: float | None
     joint: int | None = None
-    """Number (from 1) of the joint whose end position changed most. The change of a joint is measured by the time in
-    which the joint travels from the old end position to the new one. None if the end positions agree or the arms
-    differ.
+    """Number (from 1) of the joint whose end position changed most. So that hinges and slides can be compared, the
+    measure of a change is the time that the joint needs for this change at its greatest speed. None if the end
+    positions agree or the arms differ.
     """
     name: str = ""
     kind: Literal["revolute", "prismatic"] | None = None

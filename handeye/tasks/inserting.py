@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from handeye.cell.truth import Truth
 
 CLEARANCE: Final = 0.114
-"""Difference between the diameters of hole and pin (mm). It has the same value as for the peg of the Factory benchmark
+"""Difference between the diameters of hole and pin (mm). The Factory benchmark has the same difference for its peg
 (docs/insertion.md).
 """
 CHAMFER: Final = 1.0  # width of the chamfer, mm, as at the holes of the pump's base

@@ -51,8 +51,8 @@ STALLED_TORQUE: Final = 0.37
 STARTING_PERIODS: Final = 4
 """Number of servo periods that a motor takes to reach its driving speed. We measured 4.2 periods."""
 FAST_PERIODS: Final = 6
-"""Servo periods after which a free motor of the usual speed has certainly started. A motor whose full speed is 1.4
-times the usual speed takes longer.
+"""A free motor of the usual speed always reaches its speed within this number of servo periods. A motor whose full
+speed is 1.4 times the usual speed takes longer.
 """
 WIND_UP: Final = 0.2
 """Longest time (s) for which the torque rises after the head of a screw has met the top. The value is our choice; the

@@ -155,7 +155,7 @@ def _top() -> Iterator[PartFault]:
             errors=(WRONG_HEIGHT, SEARCH_EXHAUSTED),
             calls=(detect.NOT_FLAT, "PIN {number} DOES NOT STAND: THE TOP HAS DRAWN IT OUT", detect.ON_PINS),
             stages=(detect.PUT_ON_TOP,),
-            harmless="Fingers that close on two flats set the top straight.",
+            harmless="When the fingers close on the two flats of the top's hub, they straighten the top.",
         ),
         Size(unit="mm", usual=6.0, limits=(0.1, 15.0)),
     )  # fmt: skip

@@ -122,6 +122,6 @@ _LIKE: Final = {"top": "machined", "block": "machined"}  # materials that have t
 _REPEATS: Final = {
     "belt": 1, "cast": 25.0, "floor": 3.3, "machined": 12.0, "table": 1, "wood": 1, "top": 12.0, "block": 12.0,
 }  # fmt: skip
-"""How often the texture of a grain is repeated in a metre. The value 1 has a meaning of its own: the texture covers
-the whole surface once.
+"""How often the texture of each material repeats per metre. The value 1 is an exception: this texture covers the whole
+surface once.
 """
