@@ -148,4 +148,4 @@ def _run(entrant: Entrant, folder: Path) -> None:
     except ValueError as error:
         raise BadArgument(f"--command cannot be used: {error}") from None
     except OSError as error:
-        raise BadArgument(f"--command cannot be started: {error.strerror}: {entrant.command}") from None
+        raise BadArgument(f"the command cannot be started: {error.strerror}: {entrant.command}") from None

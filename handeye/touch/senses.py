@@ -36,9 +36,9 @@ SWITCH_FORCE: Final = 10 * OUNCE_FORCE
 """Force (N) with which the fingers press after centring. It closes both switches.
 
 The switches close at 2 ounces, with a stated spread of .4 ounces. In worlds of the high level, the spread is .8
-ounces. With three times this spread added, each finger must press with at least 4.4 ounces. The rest of the force
-allows for two errors. First, one finger can press with 3 ounces less than the other, because the arm can hold the
-difference. Second, the force depends on the gap, which is known only to one step of its converter.
+ounces. A switch may thus need 2 ounces plus three spreads, so each finger must press with at least 4.4 ounces. The rest
+of the force allows for two errors. First, one finger can press with 3 ounces less than the other, because the arm can
+hold the difference. Second, the force depends on the gap, which is known only to one step of its converter.
 """
 GAP_OFFSET: Final = (
     0.06 * INCH

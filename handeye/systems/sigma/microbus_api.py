@@ -148,7 +148,7 @@ class Microbus:
         last = self._bus.now if end is None else _microseconds(end)
         if last <= first:
             raise BadArgument(
-                f"a diagram must end after its beginning, not go from {begin:g} s to {last / 1e6:g} s"
+                f"a diagram must end after its beginning; this one would go from {begin:g} s to {last / 1e6:g} s"
             )
         return first, last
 
