@@ -128,8 +128,8 @@ def arm() -> Iterator[Quantity]:
             unsourced="the masses were published without a tolerance. To correct the error of the masses, the arm "
             f"weighs its links. {DOUBLED}"),
         group("arm.mass_centre", numbered(Uniform, *[5.0] * 6), "%",
-            "Distance between a link's centre of mass and its joint: relative deviation of the true distance from "
-            "the controller's value.", least=-90.0,
+            "True distance between a link's joint and its centre of mass, as a relative deviation from the "
+            "controller's value.", least=-90.0,
             unsourced="the centres of mass, like the masses, were published without a tolerance. To correct the "
             f"errors of these centres, the arm weighs its links. {DOUBLED}"),
         group("arm", {"hand_length": Uniform(0.02)}, "in",
