@@ -85,17 +85,17 @@ def arm() -> Iterator[Quantity]:
             "Amplitude of the periodic error of the position reading. The periodic error limits the distance over "
             "which a saved correction is valid.",
             unsourced="no data sheet of 1974 gives this amplitude. Today's data sheets give the greatest deviation "
-            "from a straight line (.15 to .25 % of the travel for wire-wound potentiometers, 1 to 2 % for "
-            "conductive plastic: Bourns 3400 to 3590, 6537 to 6639). These data sheets do not say whether this "
-            "deviation is periodic. Bound: .18 deg for joint 1, .16 deg for joint 2, .10 in for joint 3, .59 deg "
-            "for joint 4, .57 deg for joint 5; each of these amplitudes alone would explain the error of .1 in of "
-            "the whole arm (layout study, section 4)."),
+            "of the reading from a straight line (.15 to .25 % of the travel for wire-wound potentiometers, 1 to 2 "
+            "% for conductive plastic: Bourns 3400 to 3590, 6537 to 6639). These data sheets do not say whether "
+            "this deviation is periodic. Bound: .18 deg for joint 1, .16 deg for joint 2, .10 in for joint 3, .59 "
+            "deg for joint 4, .57 deg for joint 5; each of these amplitudes alone would explain the error of .1 in "
+            "of the whole arm (layout study, section 4)."),
         group("arm.wave_phase", phases, "deg", "Phase of the periodic error of the position reading."),
         group("arm.pot_noise", numbered(Noise, 0.004, 0.004, 0.002, 0.01, 0.01, 0.01), JOINT_UNITS,
             "Noise of the potentiometers before the converter. This noise differs from reading to reading.",
-            unsourced="the noise is far smaller than a step of the converter (.05 to .08 deg and .009 in), so the "
-                "converter does not show it. Bound: the output smoothness of the Bourns 6639, .1 % of the travel, "
-                "which is four steps of the converter."),
+            unsourced="we chose a noise far smaller than a step of the converter (.05 to .08 deg and .009 in), so "
+            "the converter does not show it. Bound: four steps of the converter, because the output smoothness of "
+            "the Bourns 6639 is .1 % of the travel."),
         group("arm.pot_step", numbered(Step, *(position_step(STANFORD) / size).tolist()), JOINT_UNITS,
             f"One step of the converter of a potentiometer: {SENSE_BITS} bits over the joint's travel. Data sheet of "
             "1974."),
