@@ -33,8 +33,8 @@ of the potentiometer. The tolerance is one step for rounding, plus five standard
 difference of two readings at the high level. The noise of one reading is .2 steps, and .4 steps at the high level.
 """
 STRUCK: Final = 3.0
-"""Factor for the uncertainty of a joint's path if the joint is struck. In one servo period, this uncertainty is the
-product of the factor, the change of the joint's rate and half the period. The factor is our choice.
+"""If a joint is struck, its path in one servo period is uncertain by this factor, times the change of the joint's
+rate, times half the period. The factor is our choice.
 """
 
 

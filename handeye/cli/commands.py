@@ -82,8 +82,8 @@ sentence of the command's docstring; a group of commands has no function. The mo
 
 class _Command(CommandSpec):
     def resolve(self, parent_app: App) -> App:
-        """Import the command. The docstring of the command is its help. A list of commands shows the sentence in the
-        table `COMMANDS` instead of the docstring, so the commands need not be imported for the list.
+        """Import the command. The docstring of the command is its help. The table `COMMANDS` has one sentence for each
+        command. A list of commands shows these sentences, so the list needs no import of the commands.
         """
         self.help = None
         restore_docstring(loaded(self.import_path, "the command at "))

@@ -108,7 +108,7 @@ class Agenda(MutableRecord, Generic[Time], kw_only=True):
         if duration < 0:
             raise BadArgument(f"{task} cannot wait for a negative time")
         if again == _MOST_AT_ONCE:
-            raise Deadlock({task: f"no time, {_MOST_AT_ONCE} times in succession"})
+            raise Deadlock({task: f"0 s, {_MOST_AT_ONCE} times in succession"})
         self.due[task] = (time + duration, 0) if duration else (time, again + 1)
 
     def wait(self, task: str, name: str) -> None:

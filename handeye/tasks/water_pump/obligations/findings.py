@@ -63,7 +63,7 @@ def _sensed(screws: int) -> Iterator[Obligation]:
         ),
         Obligation(
             finding="screws_thread", claims=threaded,
-            rests="The screw has the length of the drawing (screws_size).",
+            rests="The screw has the length that the drawing gives (screws_size).",
         ),
         Obligation(
             finding="screws_place", claims=threaded, rests="A thread holds its screw on the axis of the hole."
