@@ -85,6 +85,8 @@ class Executor:
         found = before(run)
         run.emit(StepStarted(time=run.time, step=here, file=step.file, line=step.line, text=step.text))
         self.state.at = self._past(self._perform(step))
+        if self.state.at is None:
+            run.drive.stop()  # the program has ended; under its drives, the arm would still sway
         self.state.done.append(noted(run, found, step=here, enters=enters))
         motion, planned = run.plan.motions.get(here), None
         if motion is not None:
