@@ -4,10 +4,10 @@ python docs/make_trials.py                       # the table
 python docs/make_trials.py NAME COMMIT DIR       # the file of the batch in DIR, and the table
 
 DIR is the output folder of `handeye trials assembly --out DIR`. Of an interrupted batch, the trials before the first
-missing one count. A file has a line for each trial. Above them are the command, the commit, digests of code and plan,
-the worlds, the versions, and (since it is recorded) the renderer of the pictures. The table adds up batches of one
-plan, one kind of worlds, one renderer and the same code, which includes the scenes. Batches of the newest program that
-was counted come first, in a table of their own; change `NEWEST` with it.
+trial without a result count. A file has a line for each trial. Above them are the command, the commit, digests of code
+and plan, the worlds, the versions, and (since it is recorded) the renderer of the pictures. The table adds up batches
+of one plan, one kind of worlds, one renderer and the same code, which includes the scenes. Batches of the newest
+program that was counted come first, in a table of their own; change `NEWEST` with it.
 """
 
 import csv

@@ -7,7 +7,7 @@ work cell.
 >>> run.completed
 True
 
-Names are loaded on first use, so `import handeye` itself takes only milliseconds.
+Each public name is imported when it is first used, so `import handeye` itself takes only milliseconds.
 """
 
 TYPE_CHECKING = False  # type checkers take it as True; importing `typing` would delay the handling of Ctrl-C

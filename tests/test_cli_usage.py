@@ -15,8 +15,8 @@ WRONG = {
     "trace photograph run": "`trace photograph` needs --at (see `handeye trace photograph --help`)",
     "run job.json --break": "--break needs a value (see `handeye run --help`)",
     "trace photograph run -o": "-o needs a value (see `handeye trace photograph --help`)",
-    "plan a.al --output b": "`plan` has no option `--output` any more: --out, or -o, names every file or folder that "
-    "is written (see `handeye plan --help`)",
+    "plan a.al --output b": "`plan` has no option `--output` any more: --out, or -o, gives the file or folder to write "
+    "(see `handeye plan --help`)",
     "faults --workers 3": "`faults` has no option `--workers` any more: --jobs sets the number of processes "
     "(see `handeye faults --help`)",
     "render -o it.png --width 64": "`render` has no option `--width` any more: --size sets width and height, as in "

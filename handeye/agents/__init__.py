@@ -1,1 +1,1 @@
-"""What agents use: a server of tools for the model context protocol, and the bench that judges agents' programs."""
+"""Serves agents: a server offers them tools over the model context protocol, and a bench judges their programs."""

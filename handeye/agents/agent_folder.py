@@ -25,8 +25,8 @@ class AgentFolder:
 
     @classmethod
     def at(cls, path: Path | None) -> Self:
-        """Open a folder, which is created if it does not exist. By default, a new folder is created under the current
-        one. Raises CannotWrite if the folder cannot be created.
+        """Open a folder, which is created if it does not exist. If `path` is None, a new folder is created in the
+        current folder. Raises CannotWrite if the folder cannot be created.
         """
         chosen = path or _new_folder(Path.cwd())
         try:
@@ -52,8 +52,8 @@ class AgentFolder:
         return self.path(name).is_file()
 
     def run(self, name: str) -> Path:
-        """Return the folder of a run. Raises BadArgument if no run can have this name, or if the folder holds a
-        link.
+        """Return the folder of a run. Raises BadArgument if no run can have this name, or if the run's folder contains
+        a link.
         """
         if not _RUN.fullmatch(name):
             raise BadArgument(

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 class Phrases(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """What the end of a brief says about a language."""
+    """The phrases about one language that the end of a brief uses."""
 
     stops: str  # how a program stops
     check: str  # the command that checks one

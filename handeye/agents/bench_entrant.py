@@ -28,7 +28,7 @@ class Entrant:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Effort:
-    """What an entrant spent on a task. The time differs from run to run."""
+    """The rounds and the wall-clock time that an entrant needed for a task. This time differs from run to run."""
 
     rounds: int = 0
     wall_s: float = 0.0
@@ -62,8 +62,8 @@ def solved(task: BenchTask, entrant: Entrant, folder: Path, call: Call) -> Effor
 
 
 def _blocked(folder: Path) -> str:
-    """Return the reason why handeye cannot use the folder that an entrant has left. The text is empty if handeye can
-    use the folder.
+    """Return the reason why handeye cannot use the folder that an entrant has left, or an empty text if handeye can
+    use this folder.
     """
     if folder.is_symlink() or not os.access(folder, os.R_OK | os.W_OK | os.X_OK):
         return "the entrant has removed, replaced or locked the folder of the task"
@@ -80,9 +80,9 @@ def verdicts(
     call: Call,
     tell: Callable[[Verdict], None] = lambda _: None,
 ) -> list[Verdict]:
-    """Judge the solution in a folder, in the worlds with these seeds. A program that must work in every order of its
-    tasks is judged only once, in all these orders. A solution that cannot be run counts as stopped in each of the
-    worlds.
+    """Judge the solution in a folder, in one world for each of the seeds. If a solution must work in every order of
+    its concurrent tasks, it is judged only once, in all these orders. A solution that cannot be run counts as stopped
+    in each of the worlds.
     """
     try:
         if task.file.orders:
@@ -110,7 +110,7 @@ def lost(
 
 
 def _in_every_order(task: BenchTask, folder: Path) -> Verdict:
-    """Judge a solution in every order of its tasks."""
+    """Judge a solution in every order in which its concurrent tasks can run."""
     seed, problems = task.file.public[0], task.problems(folder)
     if not problems:
         return Verdict(seed=seed, outcome="accepted", listed=False)
@@ -121,8 +121,8 @@ def _in_every_order(task: BenchTask, folder: Path) -> Verdict:
 
 
 def lay_out(task: BenchTask, folder: Path) -> list[str]:
-    """Put the brief and the given files of a task into a new folder. Returns their names. Raises CannotWrite if the
-    folder exists or cannot be created.
+    """Put the brief and the given files of a task into a new folder. Returns the names of all these files. Raises
+    CannotWrite if the folder exists or cannot be created.
     """
     try:
         folder.mkdir(parents=True)
@@ -148,4 +148,4 @@ def _run(entrant: Entrant, folder: Path) -> None:
     except ValueError as error:
         raise BadArgument(f"--command cannot be used: {error}") from None
     except OSError as error:
-        raise BadArgument(f"--command cannot be started: {error.strerror}: {entrant.command}") from None
+        raise BadArgument(f"the command cannot be started: {error.strerror}: {entrant.command}") from None

@@ -25,8 +25,8 @@ def feedback(found: Sequence[Verdict], kind: Feedback) -> str:
 
 
 def _traces(found: Sequence[Verdict]) -> Iterator[str]:
-    """Yield a section with the last steps of each world in which the solution was not accepted. Worlds in which the
-    program made no step share a section if the reason is the same.
+    """Yield a section with the last steps of each world in which the solution was not accepted. If the program made no
+    step in several worlds, for the same reason, these worlds share a section.
     """
     wrong = (each for each in found if each.outcome != "accepted" and each.listed)
     for (_, why), worlds in groupby(wrong, lambda each: (each.seed if each.steps else None, each.message)):

@@ -42,7 +42,9 @@ class TaskFiles:
     other: "Callable[[str], TaskFiles]"  # returns the files of another task, by its name
 
     def read(self, kind: str) -> dict[str, bytes]:
-        """Return the files of one of FOLDERS, by name. Raises BadFile if one of these files cannot be derived."""
+        """Return the name and the contents of each file in one of FOLDERS. Raises BadFile if one of these files cannot
+        be derived.
+        """
         own = {file.name: read_whole(file) for file in sorted((self.folder / kind).glob("*.*"))}
         made = {
             name.partition("/")[2]: self.text(name).encode()
@@ -52,8 +54,8 @@ class TaskFiles:
         return own | made
 
     def text(self, name: str, without: frozenset[str] = frozenset()) -> str:
-        """Return the text of the file `FOLDER/NAME`. If other files are being derived from this file, `without` names
-        these other files. Raises BadFile if the text can only be derived from one of them.
+        """Return the text of the file `FOLDER/NAME`. `without` names the files whose text is being derived from this
+        one. Raises BadFile if the file would be derived from itself.
         """
         place = f"{self.folder.name}/{name}"
         if name not in self.derived:

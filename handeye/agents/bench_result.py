@@ -50,7 +50,7 @@ class BenchResult(Record, frozen=True, kw_only=True):
 
 
 def score_of(found: Sequence[Verdict]) -> float:
-    """Return the score of verdicts: (accepted - 2 silent) / worlds."""
+    """Return (a - 2 s) / n for the verdicts in n worlds, of which a are `accepted` and s are `silent`."""
     accepted, silent = (sum(each.outcome == word for each in found) for word in ("accepted", "silent"))
     return round((accepted - 2 * silent) / len(found), 4)
 
@@ -77,8 +77,8 @@ def scored(
 
 
 def to_json(result: BenchResult) -> bytes:
-    """Encode the result as one JSON object. Hidden seeds are left out. Instead of its seed, each verdict gets the
-    position of the seed in the file of hidden seeds, counted from 0.
+    """Encode the result as one JSON object. Hidden seeds are left out: the position of a seed in the task's list of
+    hidden seeds, counted from 0, replaces the seed.
     """
     told = msgspec.to_builtins(result) | {"score": result.score}
     if result.seeds == "hidden":

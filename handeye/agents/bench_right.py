@@ -24,7 +24,7 @@ _HEARD: Final = "heard"  # the mechanism that keeps the lines that a program pri
 
 
 class Body(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """Where a body must be when the program has ended."""
+    """The required place of a body when the program has ended."""
 
     name: str
     frame: str = ""  # body from which the place is measured; empty: the world
@@ -90,13 +90,13 @@ class Measured(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=
 
 
 class Right(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """What a correct program does in a world."""
+    """The behaviour of a correct program in a world."""
 
     stops: str = ""
     """If the work is impossible: a regular expression for the message with which a right program stops."""
     state: Literal["done", "on_face", "apart"] = "done"
-    """Which referee of the task judges the end: the referee of the finished work, of a pin on the face of the plate,
-    or of a cell whose parts are back in their places.
+    """Which referee of the task judges the final state of the cell: the referee of the finished work, of a pin on the
+    face of the plate, or of a cell whose parts are back in their places.
     """
     only: list[str] | None = None  # findings of the task's referee that count; None: all
     undone: bool = False  # after the end, the arm undoes its work, and all parts must be back in their places

@@ -40,7 +40,7 @@ Tier = Literal["macros", "language", "bare", "repair"]
 
 
 class Worlds(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """How the worlds of a task differ from usual worlds, in the form of the options of `handeye.World`."""
+    """The differences between a task's worlds and usual worlds. The fields are the options of `handeye.World`."""
 
     level: Level = "nominal"
     without: list[str] = []
@@ -50,7 +50,7 @@ class Worlds(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class Case(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """What a program finds in a world, and what a right program does in that world."""
+    """The properties of a world, and the behaviour of a correct program in this world."""
 
     worlds: Worlds = Worlds()
     right: Right = Right()
@@ -75,8 +75,8 @@ class _File(Case, frozen=True, forbid_unknown_fields=True, kw_only=True):
     kept: str = ""  # regular expression for lines that a solution must keep, in their order
     orders: bool = False  # the program is judged in every order of its tasks, and not in worlds
     variants: list[dict[str, dict[str, Any] | str]] = []
-    """Variants of the case, each as the fields that it changes. The number of a world's variant is the seed of the
-    world modulo the number of variants.
+    """Variants of the case. Each variant holds the fields that it changes. The world with seed n has variant n modulo
+    the number of variants.
     """
     derived: dict[str, Derived] = {}
 
@@ -110,7 +110,7 @@ class BenchTask(msgspec.Struct, frozen=True, kw_only=True, dict=True):
         return f"{SOLUTION}.{self.file.language}"
 
     def given(self) -> dict[str, bytes]:
-        """Return the files with which an entrant begins, by name."""
+        """Return the name and the contents of each file that an entrant is given at the start."""
         return {BRIEF: self.brief.encode(), **self.files.read(GIVEN)}
 
     def solution(self, kind: str) -> dict[str, bytes]:
@@ -134,11 +134,11 @@ class BenchTask(msgspec.Struct, frozen=True, kw_only=True, dict=True):
         return tuple(found)
 
     def case(self, seed: int) -> Case:
-        """Return the case of the world with this seed."""
+        """Return the case to which the world with the seed `seed` belongs."""
         return self.cases[seed % len(self.cases)]
 
     def world(self, seed: int) -> WorldSpec:
-        """Return the world with this seed."""
+        """Return the world with the seed `seed`."""
         worlds, task = self.case(seed).worlds, any_task(self.file.task)
         settings = [f"{name}={value}" for name, value in worlds.set.items()]
         scales = [f"{name}={factor}" for name, factor in worlds.scale.items()]
@@ -151,7 +151,7 @@ class BenchTask(msgspec.Struct, frozen=True, kw_only=True, dict=True):
         return msgspec.structs.replace(spec, faults=planted)
 
     def setups(self, folder: Path, seeds: Sequence[int]) -> list[Setup]:
-        """Return the setups of the runs in which the solution in a folder is judged, one for each seed. Raises
+        """Return one setup for each seed. In runs with these setups, the solution in `folder` is judged. Raises
         InvalidInput if there is no solution, or if it has errors.
         """
         own = AgentFolder(folder.resolve())
@@ -171,9 +171,9 @@ class BenchTask(msgspec.Struct, frozen=True, kw_only=True, dict=True):
         return found
 
     def problems(self, folder: Path) -> list[tuple[bool, str]]:
-        """Try the solution in a folder in every order of its tasks, and return its problems, the worst first. Each
-        problem is a pair: a flag, which is True if the program does not notice the problem, and a sentence that
-        describes the problem. Raises InvalidInput if there is no solution, or if it has errors.
+        """Try the solution in `folder` in every order of the solution's concurrent tasks. Returns the problems found,
+        the worst first. Each problem is a pair: a flag, which is True if the program does not notice the problem, and
+        a sentence that describes the problem. Raises InvalidInput if there is no solution, or if it has errors.
         """
         text = self._checked(AgentFolder(folder.resolve()))
         entry, _ = entry_of_file(self.program)
@@ -213,7 +213,7 @@ class BenchTask(msgspec.Struct, frozen=True, kw_only=True, dict=True):
 
 
 def _replaced(text: str, lines: Mapping[str, str]) -> str:
-    """Return a program in which each line that is a key of `lines` is replaced by the value of this key.
+    """Return the program with the keys of `lines` replaced by their values. Keys and values are whole lines.
 
     A solution must keep the lines that are keys.
     """
@@ -221,13 +221,13 @@ def _replaced(text: str, lines: Mapping[str, str]) -> str:
 
 
 def bench_tasks() -> dict[str, BenchTask]:
-    """Return all tasks of the bench by name, sorted."""
+    """Return the name and the description of each task of the bench, sorted by name."""
     folders = sorted(file.parent for file in (benches() / "agents").glob("*/task.toml"))
     return {folder.name: read_task(folder) for folder in folders}
 
 
 def bench_task(name: str) -> BenchTask:
-    """Return a task of the bench. Raises NoSuchName if the bench has no task of that name."""
+    """Return the task called `name`. Raises NoSuchName if the bench has no task with this name."""
     known = bench_tasks()
     if name not in known:
         near = suggestion(name, known) or f"the tasks are {', '.join(known)}"

@@ -64,8 +64,8 @@ def setup_of(plan: Plan, world: WorldSpec) -> Setup:
 
 
 def judged(setup: Setup, call: Call, right: Right = USUAL) -> Verdict:
-    """Run a program to its end, or to the limits of time and steps, and judge the result. `right` is what a right
-    program does in that world. Raises Refused if the call is cancelled.
+    """Run a program to its end, or to the limits of time and steps, and judge the result. `right` describes the
+    behaviour of a correct program in the world of this run. Raises Refused if the call is cancelled.
     """
     runner = None
     try:

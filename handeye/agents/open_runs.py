@@ -1,4 +1,4 @@
-"""The runs of an agent: begun, reopened and forked in its folder, and closed when the agent leaves."""
+"""The runs of an agent. They are begun, reopened and forked in the agent's folder, and closed when the agent leaves."""
 
 import warnings
 from collections.abc import Callable
@@ -36,7 +36,7 @@ class OpenRuns:
 
     def fork(self, run: str | None, stage: str, to: str | None, call: Call) -> tuple[str, Run]:
         """Begin a run with the state that another run has now, or with the state that it had before a stage. Raises
-        InvalidInput if there is no such run, state or stage, or if the name is taken.
+        InvalidInput if the other run, its state or the stage does not exist, or if the new run's name is taken.
         """
         source = self.named(run)
         present = self._open.get(source)
@@ -44,8 +44,8 @@ class OpenRuns:
         return self._added(to, call, lambda out: self._begun(start, out, at=stage or None))
 
     def find(self, run: str | None, call: Call) -> tuple[str, Run]:
-        """Return a run. A closed run is opened again. Raises InvalidInput if there is no such run, or if the
-        run ended before it was closed.
+        """Return the run called `run`. A closed run is opened again. Raises InvalidInput if the folder has no run with
+        this name, or if the run ended before it was closed.
         """
         name = self.named(run)
         if name not in self._open:
@@ -62,7 +62,7 @@ class OpenRuns:
         return name, self._open[name]
 
     def result(self, run: str | None) -> tuple[str, Result]:
-        """Return the result of a run, open or closed. Raises InvalidInput if there is no such run."""
+        """Return the result of a run, open or closed. Raises InvalidInput if the folder does not have this run."""
         name = self.named(run)
         present = self._open.get(name)
         self._last = name
@@ -74,8 +74,8 @@ class OpenRuns:
             self._open.pop(next(iter(self._open))).close()
 
     def named(self, run: str | None) -> str:
-        """Return the name of a run in the folder. By default, this is the run that was used last. Raises NoSuchName if
-        there is no such run.
+        """Return the name of a run in the folder: the run called `run`, or the run that was used last if `run` is
+        None. Raises NoSuchName if the folder does not have this run.
         """
         name = run or self._last
         known = self.folder.runs()

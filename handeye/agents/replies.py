@@ -75,8 +75,8 @@ def on_plan(plan: Plan, stage: int | None) -> Reply:
 
 
 def on_world(task: str, quantities: Sequence[QuantityReport]) -> Reply:
-    """Reply with how each quantity varies between worlds. The reply does not give the value of a quantity in any
-    single world.
+    """Reply with the distribution of each quantity over the worlds. The reply does not give the value of a quantity in
+    any single world.
     """
     rows = [
         {
@@ -94,7 +94,7 @@ def on_world(task: str, quantities: Sequence[QuantityReport]) -> Reply:
 
 
 def on_run(name: str, run: Run, answer: Answer) -> Reply:
-    """Reply with the present place of a run, and with what the run did."""
+    """Reply with the present place of a run, and with the steps that the call has executed."""
     state = run.state
     data: dict[str, Any] = msgspec.json.decode(as_json(answer))
     for key in ("events", "command", "source", "error", "said", "pause"):

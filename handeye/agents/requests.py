@@ -220,7 +220,9 @@ AnyRequest = TypeVar("AnyRequest", bound=Request)
 
 
 def read(tool: str, kind: type[AnyRequest], arguments: object) -> AnyRequest:
-    """Check the arguments of a call of the tool `tool`. Raises BadArgument, which names the argument at fault."""
+    """Check the arguments of a call of the tool `tool`. If an argument is wrong, raises BadArgument, which names this
+    argument.
+    """
     try:
         return msgspec.convert({} if arguments is None else arguments, kind, strict=True)
     except msgspec.ValidationError as error:

@@ -36,8 +36,8 @@ class Scripts:
     def checked(
         self, script: str, taught: str | None, task: str | None, language: str = "al"
     ) -> tuple[Source, tuple[Diagnostic, ...]]:
-        """Check a script in any language. Returns its text and diagnostics. Raises InvalidInput if a file or name
-        cannot be used.
+        """Check a script in any language. Returns the script's text and the diagnostics. Raises InvalidInput if a file
+        or name cannot be used.
         """
         if f".{language}" not in languages():
             raise NoSuchName(
@@ -66,7 +66,7 @@ class Scripts:
         return Plan(record=made.plan, diagnostics=found)
 
     def _parts(self, script: str, taught: str | None, task: str | None) -> tuple[Source, Taught, Task]:
-        """Read a script with the texts that it requires, its taught positions and its task."""
+        """Read a script, the texts that the script requires, its taught positions and its task."""
         program = None if "\n" in script or self._has(script) else program_named(script)
         work = tasks.task(task) if task is not None else program[1] if program else tasks.task()
         if program is not None:
@@ -82,8 +82,8 @@ class Scripts:
         return sewn(source, lambda key: self.folder.source(posixpath.join(below, key)).text), known, work
 
     def _source(self, script: str, name: str) -> Source:
-        """Read the text of a script, without the texts that it requires. If `script` is the text itself, there is no
-        file, and the script gets the name `name`.
+        """Read the text of a script, without the texts that it requires. If `script` is the text itself instead of a
+        file, the script gets the name `name`.
         """
         if "\n" in script:
             return Source(name=name, text=script.removeprefix("\ufeff"))

@@ -1,4 +1,4 @@
-"""Serves the tools to one agent over standard input and output (model context protocol, with its Python SDK).
+"""Serves the tools to one agent over standard input and output, with the Python SDK of the model context protocol.
 
 Calls that use a cell are executed in a thread, one at a time, in the order in which they arrive. Meanwhile, the server
 answers all other calls. If the agent leaves, the runs are closed, and can be resumed.

@@ -25,7 +25,7 @@ from handeye.tasks import DEFAULT
 
 @dataclass(eq=False, slots=True)
 class Toolbox:
-    """The tools of one agent, with its folder and its runs."""
+    """The tools, the folder and the runs of one agent."""
 
     folder: AgentFolder
     runs: OpenRuns = field(init=False)
@@ -77,7 +77,7 @@ class Toolbox:
         return replies.on_plan(plan, asked.stage)
 
     def world(self, asked: requests.WorldOf, call: Call) -> Reply:
-        """List how the quantities of a task vary between worlds."""
+        """List the quantities of a task, each with its distribution over the worlds."""
         task = asked.task or DEFAULT
         worlds = World(level=asked.level, task=task)
         return replies.on_world(task, [q for q in worlds.quantities if q.name.startswith(asked.group)])
@@ -127,7 +127,7 @@ class Toolbox:
         return Reply(text=f"the last picture of the run {name}, with what the program found in it", png=png)
 
     def back(self, asked: requests.Back, call: Call) -> Reply:
-        """Return the simulation to an earlier state of a run."""
+        """Restore an earlier state of a run."""
         name, run = self.runs.find(asked.run, call)
         run.back(asked.stage or asked.steps)
         return replies.on_run(name, run, _done(run.say("list")))
@@ -171,8 +171,8 @@ class Toolbox:
 
 
 def _done(answer: Answer) -> Answer:
-    """Return the answer of the stepper. If the stepper refused the command, raises Refused with the sentence in which
-    the stepper gives the reason.
+    """Return the answer of the stepper. If the stepper refused the command, raises Refused with the reason that the
+    stepper gave.
     """
     if answer.error is not None:
         raise Refused(answer.error)

@@ -88,7 +88,7 @@ _BY_NAME: Final = {tool.name: tool for tool in TOOLS}
 
 
 def tool_named(name: str) -> Tool:
-    """Return a tool. Raises NoSuchName, with the nearest name, if there is no such tool."""
+    """Return the tool called `name`. If no tool has this name, raises NoSuchName, which suggests the nearest name."""
     if name not in _BY_NAME:
         near = suggestion(name, _BY_NAME) or f"the tools are {', '.join(_BY_NAME)}"
         raise NoSuchName(f"there is no tool {quoted(name)}; {near}")

@@ -37,9 +37,9 @@ def compile_text(source: Source, taught: Taught) -> tuple[Program | None, list[D
     """Compile a text. Returns two values: the program, which is None if one of the diagnostics is an error, and the
     diagnostics.
 
-    The required texts are in `source.required` (see `includes.sewn`). Spans are offsets in the text that `sewn` makes
-    of the script and the required texts. The program contains the taught positions and parts, and the positions and
-    parts that the text adds. There are at most `LIMIT` diagnostics, sorted by position.
+    The texts that the script requires are in `source.required` (see `includes.sewn`). Spans are offsets in the text
+    that `sewn` makes of the script and the required texts. The program contains the taught positions and parts, and
+    the positions and parts that the text adds. There are at most `LIMIT` diagnostics, sorted by position.
     """
     script, found = parse_whole(source)
     if any(d.code in MISSING for d in found):
@@ -86,8 +86,8 @@ def compile_text(source: Source, taught: Taught) -> tuple[Program | None, list[D
 
 
 def _without_lost_labels(source: Source, found: list[Diagnostic]) -> list[Diagnostic]:
-    """Drop the diagnostics of those labels that are unknown only because of another mistake: a label without a colon,
-    or a wrong operand.
+    """Drop the diagnostic of an unknown label if another mistake explains it: the colon after the label is missing, or
+    the operand that names the label is wrong.
     """
     lost = [d for d in found if d.code == "unknown-label"]
     if not lost:

@@ -21,7 +21,7 @@ NIL: Final = "NIL"  # dialect of 1977: no force or moment
 
 
 class OperandUnit(Record, frozen=True, kw_only=True):
-    """The unit of an operand. `si` is the value of one such unit in SI units."""
+    """The unit of an operand. `si` is the size of this unit in SI units."""
 
     name: str
     si: float
@@ -38,7 +38,7 @@ REV_PER_MIN = OperandUnit(name="rpm", si=units.RPM)
 
 
 class Refers(StrEnum):
-    """What the name in an operand refers to."""
+    """The kind of object that the name in an operand refers to."""
 
     POSITION = "position"
     PART = "part"
@@ -139,8 +139,8 @@ class Instruction(Record, frozen=True, kw_only=True):
 
     @property
     def origin(self) -> str:
-        """The document in which the instruction was found, or `handeye` for an addition of handeye. If operands have
-        another origin, the text names these operands and their origin too.
+        """The document in which the instruction was found, or `handeye` for an addition of handeye. If some operands
+        are from another document, their names and their origin are added.
         """
         own, others = _name(self.document), dict[str, list[str]]()
         for operand in self.operands:

@@ -1,7 +1,6 @@
 """Finds words and operands that handeye adds to the language of the 1970s.
 
-Some words are from documents that we know only from memory (`docs/sources.md`). These words are not additions, and are
-accepted.
+Words from documents that we have not read again, but remember (`docs/sources.md`), do not count as additions.
 """
 
 from collections.abc import Iterator

@@ -27,7 +27,9 @@ class MacroHead(msgspec.Struct, frozen=True, gc=False):
 
     @property
     def usage(self) -> Instruction | None:
-        """The macro as an instruction; None if two of its parameters are the same, or if one cannot be a parameter."""
+        """The macro as an instruction; None if a parameter of the macro occurs twice or has a name that is not
+        allowed.
+        """
         free = (t.text for t in self.parameters if t.kind is NAME and taken(t.text) is None)
         names = dict.fromkeys(free)
         return as_instruction(self.word, [*names]) if len(names) == len(self.parameters) else None

@@ -62,14 +62,14 @@ def elsewhere(word: str) -> str | None:
 
 def with_digits(text: str) -> str | None:
     """Replace letters that look like digits, and return the number that was meant: 10 for the text `1O`. Returns None
-    if the text is not such a number.
+    if the text is not a number with letters in place of digits.
     """
     right = text.translate(LOOKALIKES)
     return right if right != text and _PLAIN.fullmatch(right) else None
 
 
 def letters_for_digits(text: str) -> str | None:
-    """Return a hint for a number with letters instead of digits, or None if there are no such letters."""
+    """Return a hint for a number with letters in place of digits, or None if the text is not written in this way."""
     right = with_digits(text)
     return None if right is None else f"write a digit, not a letter that looks like it: `{right}`"
 

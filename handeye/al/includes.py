@@ -1,6 +1,4 @@
-"""Scripts that consist of several files: finds the texts that a script requires, directly or through other required
-texts.
-"""
+"""Reads scripts that consist of several files. A script requires texts directly, or through other required texts."""
 
 import posixpath
 import re
@@ -22,8 +20,8 @@ MAX_FILES: Final = 100  # limit on required files; their total size is limited t
 _LINE: Final = re.compile(rf"^.*\b{REQUIRE}\b.*$", re.ASCII | re.IGNORECASE | re.MULTILINE)
 
 Read = Callable[[str], str]
-"""Function that returns the text of a file. The argument is the key of the file: the path of the file from the folder
-of the main text. Raises InvalidInput if the file is unreadable.
+"""Function that returns the text of a file. The argument is the key of the file: its path relative to the folder of
+the main text. Raises InvalidInput if the file is unreadable.
 """
 
 
@@ -59,7 +57,9 @@ def sewn(source: Source, read: Read) -> Source:
 
 
 def sewn_of(source: Source, files: Mapping[str, str]) -> Source:
-    """Join a text with the texts that it requires. The required texts are taken only from `files`, by key."""
+    """Join a text with the texts that it requires. The required texts are taken only from `files`, which maps their
+    keys to their contents.
+    """
 
     def read(key: str) -> str:
         if key not in files:

@@ -1,7 +1,7 @@
 """The table of instructions, from which the parser, the checks, the formatter and the manual are derived.
 
-Each word has the document in which it was found; `docs/sources.md` describes these documents, and says which of them
-are known only from memory. The words without a document are additions of handeye.
+For each word, the table names the document in which the word was found; `docs/sources.md` describes these documents,
+and says which of them are known only from memory. The words without a document are additions of handeye.
 """
 
 from typing import Final
@@ -76,7 +76,7 @@ _MEANINGS: Final = {
     "counter-clockwise)",
     "STOP": (
         "end the next motion when the hand presses along this vector with a force (oz) greater than the length of "
-        "the vector; if a moment (oz-in) is given, also when the hand exerts more than this moment. A single "
+        "the vector. If a moment (oz-in) is given, a greater moment of the hand also ends the motion. A single "
         "number is an extension of handeye: the motion ends when more than this force opposes it, in whatever "
         "direction the hand moves. Error 23 if nothing stops the motion"
     ),
@@ -86,8 +86,10 @@ _MEANINGS: Final = {
     "SPIN": "let the hand yield to moments about the given table axes during the next CHANGE: give 1 (yield) or 0 "
     "(stay stiff) for each axis, or the number of axes that yield and their names, such as `2 X Y`",
     "VIA": "pass these positions during the next MOVE, in this order, without stopping",
-    "TOUCH": "end the next motion when a finger touches something: 1 is the finger that lies in the direction of "
-    "angle O, 2 the other finger, 3 either finger; error 25 if the motion ends without a touch",
+    "TOUCH": (
+        "end the next motion when a finger touches something: 1 is the finger on the side to which angle O points, "
+        "2 the other finger, 3 either finger; error 25 if the motion ends without a touch"
+    ),
     "TORQUE": "end the next motion when the screwdriver turns with this torque (oz-in); error 24 if the torque is "
     "never reached",
     "RESTORE": "shift the goal of the preceding MOVE by a saved difference; with LEVEL, only horizontally",
@@ -99,9 +101,9 @@ _MEANINGS: Final = {
     "SKIPE": "if the last action raised this error, clear the error and skip the next instruction",
     "SKIPN": "if the last action did not raise this error, skip the next instruction; if it did, clear the error",
     "SEARCH": (
-        "start a search of places on a square spiral, one step (inches) apart, with three steps to each side; with "
+        "start a search of places on a square spiral, one step (inches) apart, with three steps to each side. With "
         "ALONG, the places are on a line in the given direction (degrees from the x axis of the table), with four "
-        "steps to each side; STEPS sets a different number of steps"
+        "steps to each side. STEPS sets a different number of steps"
     ),
     "AOJ": "select the next place of the search and jump back to the label; error 6 if no place is left",
     "ASSIGN": "set a counter",

@@ -225,7 +225,9 @@ class _Lowerer:
         )  # fmt: skip
 
     def fits(self, modifier: ExpandedStatement, first: ExpandedStatement, motion: Statement) -> bool:
-        """Return True if a modifier applies to this motion and is the first of its kind."""
+        """Return True if a modifier can modify this kind of motion, and if `first`, the first modifier of this kind,
+        is the same modifier. Reports a problem if the result is False.
+        """
         word = _word(modifier)
         assert motion.word is not None
         fits = INSTRUCTIONS[word.text].fits

@@ -48,7 +48,7 @@ _OPERANDS: Final = {
 
 
 class Operands(msgspec.Struct, frozen=True, gc=False):
-    """Operands of a checked statement, by name, in SI units."""
+    """The operands of a checked statement. The methods find an operand by its name and return its value in SI units."""
 
     values: tuple[Value | None, ...]
     places: dict[str, tuple[int, tuple[float, ...]]]
@@ -95,7 +95,7 @@ def _operands(statement: Statement) -> Operands:
 
 
 class _Modifiers(msgspec.Struct, frozen=True, kw_only=True):
-    """The settings of a motion, as its modifiers give them."""
+    """The settings that the modifiers of a motion make."""
 
     guards: g.Guards = ()
     press: Vector3 | None = None

@@ -53,8 +53,8 @@ def expand(script: Script, report: Callable[[Diagnostic], None]) -> list[Expande
 
 
 def as_called(script: Script, placed: list[ExpandedStatement]) -> Iterator[Statement]:
-    """Yield the statements of a script and of its macros. If a macro has parameters, its statements are yielded as
-    each call fills them in.
+    """Yield the statements of a script and of its macros. If a macro has parameters, its statements are yielded once
+    for each call, with the operands of this call filled in.
     """
     yield from script.statements
     for macro in script.macros.values():

@@ -40,7 +40,7 @@ def read_operands(definition: Instruction, head: Token, tokens: Sequence[Token])
 
 
 def free_text(tokens: Sequence[Token]) -> str:
-    """Return the text of tokens as it stands on the line, with each blank as a space."""
+    """Return the text of tokens as written on the line. A tab between the tokens becomes a space."""
     text, end = "", tokens[0].start
     for token in tokens:
         text += " " * (token.start - end) + token.text

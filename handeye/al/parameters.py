@@ -1,7 +1,7 @@
 """The lines of a macro, with the operands of a call in place of the parameters.
 
-An operand is read at the place of its parameter. If only the operand is wrong, the mistake is reported at the place
-where the operand is written.
+If an operand of the call is wrong for the line, the mistake is reported at the place in the call where the operand is
+written.
 """
 
 import re
@@ -72,7 +72,7 @@ class FilledLine:
         return tuple(dict.fromkeys(given.by for given in self.given.values()))
 
     def at_source(self, values: Sequence[Value | None]) -> tuple[Value | None, ...]:
-        """Return the values, each with the span of the text in which it is written."""
+        """Return the values. If an argument replaced a parameter, the value's span is the span of the argument."""
         return tuple(
             msgspec.structs.replace(value, start=given.start, end=given.end, use=value.span)
             if value is not None and (given := self.given.get(value.span)) is not None
@@ -81,7 +81,9 @@ class FilledLine:
         )
 
     def located(self, mistake: Diagnostic, call: Statement) -> Diagnostic:
-        """Locate a mistake at the argument if only the argument is wrong. If not, locate it at the line."""
+        """Locate a mistake. If the mistake is at a parameter, the returned diagnostic points to the argument; if not,
+        to the line.
+        """
         given = self.given.get(mistake.primary.span)
         if given is None or mistake.code == "too-many-operands":
             return replace(mistake, secondary=(Label(span=call.span, text="called here"),))
@@ -110,7 +112,7 @@ def filled(statement: Statement, given: Mapping[str, Argument]) -> FilledLine:
 
 
 def parameters_in(statement: Statement) -> Iterator[Token]:
-    """Yield the operands that may be parameters: names, but not the words of a text."""
+    """Yield the names among the operands: these may be parameters. Yields nothing if the operand is free text."""
     if statement.word is not None and statement.word.text not in FREE_TEXT:
         yield from (token for token in statement.tokens if token.kind is NAME)
 
@@ -124,7 +126,7 @@ def braced_in(statement: Statement) -> Iterator[tuple[str, Span]]:
 
 
 def braced(token: Token) -> Iterator[tuple[str, Span]]:
-    """Yield the names in braces, with their spans."""
+    """Yield the names in braces in a token, with their spans."""
     for found in _BRACED.finditer(token.text):
         yield found[1], Span(start=token.start + found.start(), end=token.start + found.end())
 
@@ -135,8 +137,8 @@ def used(parameter: Span) -> Label:
 
 
 def uses(operand: Operand) -> tuple[Label, ...]:
-    """Make a label for a diagnostic. The label marks the parameter of the macro that the operand replaces. Returns no
-    label if the operand does not replace a parameter.
+    """Make a label for a diagnostic. The label marks the place in the macro where the operand replaces a parameter.
+    Returns no label if the operand does not replace a parameter.
     """
     return () if operand.use is None else (used(operand.use),)
 

@@ -210,7 +210,9 @@ class _Phrases:
         notes: tuple[str, ...] = (),
         secondary: tuple[Label, ...] = (),
     ) -> Diagnostic:
-        """Make a diagnostic at the position that a finding concerns, or at the word of the motion."""
+        """Make a diagnostic that points to the name of the arm position in a finding, or to the word of the motion if
+        the finding has no position.
+        """
         name = found.position
         span = self.word_span(found.step) if name is None else self.name_span(found.step, name)
         return problem(found.code, message, span, *secondary, notes=notes, help=help)
@@ -246,7 +248,7 @@ class _Phrases:
         return next((span for span in found if span is not None), self.word_span(number))
 
     def find(self, words: Step | SourcePlace, word: str, *, behind: int = 0) -> Span | None:
-        """Find the span of a word. `behind` is the number of tokens to skip first."""
+        """Find the span of `word` in the lines of a step or a place. `behind` is the number of tokens to skip first."""
         span = self.span(words)
         text, start = self.whole.find(span.start)
         lines = scan(text.text[start : start + span.end - span.start], span.start)

@@ -35,7 +35,7 @@ def by_word(statements: Iterable[Statement]) -> ByWord:
 
 
 def used_names(words: ByWord) -> Used:
-    """Collect all names that refer to an object, by kind."""
+    """Collect the names of objects in a script. Returns a list of names for each kind of object."""
     found: dict[Refers, list[Name]] = {refers: [] for refers in Refers}
     for word, statements in words.items():
         for place, refers in _NAMED.get(word, ()):

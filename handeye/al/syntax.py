@@ -48,7 +48,7 @@ Value = Name | Number | Vector | Text
 
 
 class Statement(Located, frozen=True, gc=False):
-    """A line: labels, and an instruction or a macro call. Either may be missing."""
+    """A line: labels, and an instruction or a macro call. A line may have only labels, or no labels."""
 
     labels: tuple[Name, ...]
     word: Name | None  # instruction in capitals, or macro; None if there are only labels

@@ -55,7 +55,7 @@ def begin(
 
     Args:
         script: a script or plan, as for `handeye.plan`; by default the script of the task. To resume a run, give a
-            checkpoint; or give the folder of the run, which then continues from its newest checkpoint.
+            checkpoint. If you give the folder of the run instead, the run continues from its newest checkpoint.
         seed: seed from which the world is generated; 0 by default.
         at: the stage before which the run pauses: its name, a unique part of its name, or its number (the first is 1).
             Earlier stages are executed first. If `script` is the folder of a run, execution begins at the last
@@ -155,9 +155,9 @@ def assemble(
     """Run a script to its end and let the referee judge the result, like the command `handeye assemble`.
 
     Args:
-        on_stop: what to do when the program calls the operator: `abort` ends the run; `retry:N` repeats the stage,
-            at most N times; `unwind` makes the arm undo its work in that stage, then repeats the stage, at most once
-            per stage.
+        on_stop: what to do when the program calls the operator: `abort` ends the run; `retry:N` repeats the
+            interrupted stage, at most N times; `unwind` first makes the arm undo its work in the interrupted stage,
+            then repeats this stage, at most once per stage.
 
     The other arguments are those of `handeye.begin`.
 
@@ -193,7 +193,7 @@ def assemble(
 
 
 def _rule(on_stop: object) -> Operator:
-    """Return the operator that follows the rule `on_stop`. Raises InvalidInput if there is no such rule, or if the
+    """Return the operator that follows the rule `on_stop`. Raises InvalidInput if `on_stop` is not a rule, or if the
     rule needs a person to answer.
     """
     operator = None

@@ -21,7 +21,7 @@ HOUR: Final = 3600.0  # s; a controller commands the arm for at most this time a
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Command:
-    """What a controller commands for one servo period. If `torque` is None, the brakes are set. If the command of
+    """The command of a controller for one servo period. If `torque` is None, the brakes are set. If the command of
     another device is None, the device keeps its last command.
 
     >>> handeye.Command(torque=[0.0] * 6, gap=0.02).gap
@@ -77,7 +77,9 @@ def _named(controller: object) -> str:
 
 
 def _periods(seconds: object, period: float) -> int:
-    """Return the number of servo periods in a time (s). Raises BadArgument unless the time is usable."""
+    """Return how many whole servo periods fit into `seconds`. Raises BadArgument unless this time is between one
+    period and one hour.
+    """
     if not isinstance(seconds, int | float) or isinstance(seconds, bool) or not period <= seconds <= HOUR:
         raise BadArgument(
             f"`seconds` must be a number from one servo period ({period:.4f} s) to {HOUR:.0f} s, not {seconds!r}"

@@ -57,8 +57,8 @@ def limits_of(given: Referee | Limits | None) -> dict[str, float] | None:
 
 
 def referee_of(given: Referee | Limits | None) -> Referee | None:
-    """Return the caller's referee with its results checked, or None if the referee of the task judges. Raises
-    InvalidInput if the argument is neither a function nor a table of limits.
+    """Return the caller's referee, wrapped so that its results are checked, or None if the referee of the task judges.
+    Raises InvalidInput if the argument is neither a function nor a table of limits.
     """
     if given is None or isinstance(given, Mapping):
         return None

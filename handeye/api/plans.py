@@ -148,7 +148,7 @@ class Plan:
             stage: draw only this stage: its number (the first is 1), its name, or a unique part of its name.
 
         Raises:
-            InvalidInput: there is no such stage.
+            InvalidInput: the plan does not have this stage.
 
         >>> handeye.plan("OPEN 1\\nOPEN 2\\n").flow()
         <FlowDrawing flow of script: 2 steps>

@@ -52,8 +52,8 @@ Place = str | int
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RunEnding:
-    """What a run needs at its end: the folder to complete, the referee that judges the run, and the timer of the
-    computing time.
+    """The objects that a run uses when it ends: the folder to complete, the referee that judges the run, and the timer
+    of the computing time.
     """
 
     folder: RunFolder | None
@@ -91,7 +91,8 @@ class Run:
     # -- running --------------------------------------------------------------------------------------
 
     def step(self, n: int = 1) -> State:
-        """Execute the next `n` steps, or fewer if a breakpoint, a call to the operator or the end stops the run.
+        """Execute the next `n` steps, or fewer if the run stops earlier: at a breakpoint, at a call to the operator or
+        at the end of the program.
 
         Raises:
             InvalidInput: the run cannot continue, or `n` is not a whole number of 1 or more.
@@ -108,7 +109,8 @@ class Run:
                 (`"error:23"`: after the step that raises error 23).
 
         Raises:
-            InvalidInput: the run cannot continue, there is no such place, or the run cannot reach it from here.
+            InvalidInput: the run cannot continue, the place does not exist, or the run cannot reach the place from
+                here.
         """
         stops: list[AnyStop] = []
         if place is not None:
@@ -189,13 +191,13 @@ class Run:
         return self._stand(reason(pause))
 
     def break_at(self, place: Place) -> Break:
-        """Set a breakpoint: the run pauses whenever it reaches `place`, which is given as for `until`.
+        """Set a breakpoint: the run pauses whenever it reaches `place`. The places are the same as for `until`.
 
         Returns:
             the breakpoint; `run.say("delete 1")` removes the breakpoint with the `number` 1.
 
         Raises:
-            InvalidInput: there is no such place, or the run is closed.
+            InvalidInput: the place does not exist, or the run is closed.
         """
         self._check_open()
         return self._session.add_break(given_place(place))
@@ -263,14 +265,15 @@ class Run:
         return self._stand(reason(pause))
 
     def control(self, controller: Controller, seconds: float = 60.0) -> State:
-        """Let a controller command the arm, once in every servo period (1/60 s), before the program continues.
+        """Let a controller command the arm, once in every servo period (1/60 s). The program continues when the
+        control has ended.
 
         The controller knows the cell only through the sensors. The controller receives the readings at the end of a
         servo period: `time` (s), `q` and `qd` (joint positions and rates, shape (n,), rad and m), `gap` (m), `touch`
         (the two switches of the fingers), `tool_torque` (of the screwdriver, N m), and `braked`. The controller
         returns a `handeye.Command` for the next period, or None to end its control. When the control ends, the brakes
-        are set for .1 s, and the arm comes to rest. Fingers and screwdriver keep their last commands. `run.arm` gives
-        the model of the arm, for `handeye.arm`.
+        are set for .1 s, and the arm comes to rest. Fingers and screwdriver keep their last commands. `run.arm` is the
+        model of the arm; the functions of `handeye.arm` use it.
 
         The commands are recorded as an event of the run, so `handeye trace verify` and `back` repeat them. Afterwards,
         the arm cannot undo the steps that it executed before the control.
@@ -284,7 +287,7 @@ class Run:
                 something other than a command.
             PhysicsFailed: the simulation became unstable.
 
-        If the controller raises an exception, the run returns to its state before the call.
+        If the controller raises an exception, the run returns to its state before the control.
 
         >>> run = handeye.begin("OPEN 1\\nOPEN 2\\n", camera="ray")
         >>> wait = lambda seen: handeye.Command() if seen.time < 0.5 else None
@@ -425,10 +428,11 @@ class Run:
             overwrite: replace an existing export.
 
         Returns:
-            a record of the written files, with remarks; an unfinished run is marked as such.
+            a record of the written files, with remarks; for an unfinished run, its `moment` is `unfinished`.
 
         Raises:
-            InvalidInput: the export cannot be written at `path`, there is no such part, or the run has no cell.
+            InvalidInput: the export cannot be written at `path`, `part` is neither `cell` nor `pump`, or the run has
+                no cell.
 
         >>> run = handeye.begin("OPEN 1\\n", camera="ray")
         >>> run.export(folder).moment

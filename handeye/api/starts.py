@@ -115,8 +115,8 @@ def _is_kept(given: FileName) -> bool:
 
 def _kept(given: FileName, at: str | None, wanted: RunRequest) -> Checkpoint:
     """Read a saved state. If `given` is a checkpoint, that checkpoint is the state. If `given` is a folder, the state
-    is the newest in this folder or, with `at`, the newest before the stage `at`. Raises InvalidInput if there is no
-    such state.
+    is the newest in this folder or, with `at`, the newest before the stage `at`. Raises InvalidInput if the folder
+    contains no saved state, or if the plan has no stage `at`.
     """
     path = given_file(given, "resume a run from a file or a folder")
     start = open_again(path)[1] if path.is_dir() else read_checkpoint(path)
@@ -159,7 +159,7 @@ def _check_same(path: Path, begun: Setup, wanted: RunRequest) -> None:
 
 def _with_parts(start: Checkpoint, wanted: RunRequest) -> Checkpoint:
     """Return the checkpoint with the caller's search pattern, camera and referee in place of those that were saved.
-    The setup and the first event of the returned checkpoint name these parts.
+    The setup and the first event of the returned checkpoint name the caller's parts.
     """
     if not wanted.replaced and not wanted.judged and wanted.limits is None:
         return start

@@ -73,9 +73,7 @@ class State:
 
 
 def state_of(runner: Runner, stage: str | None, why: str) -> State:
-    """Return the state of a paused run. Raises InvalidInput if the system of the run has no arm that moves by a
-    plan.
-    """
+    """Return the state of a paused run. Raises InvalidInput if no arm in the system of the run executes a plan."""
     run, step = runner.context, runner.next
     drive = run.drive
     return State(

@@ -107,7 +107,7 @@ class World:
 
     @cached_property
     def values(self) -> Mapping[str, float]:
-        """Value of each quantity by name, in the unit of the quantity."""
+        """The value of each quantity, in the unit of the quantity. The keys are the names of the quantities."""
         drawn, table = self._table.draw(self.spec), self._table.quantities
         return MappingProxyType(
             Named((name, value / table[name].measure.size) for name, value in drawn.values.items())
@@ -121,18 +121,18 @@ class World:
         return Several(report(self._table, self._table.draw(self.spec)).quantities)
 
     def __getitem__(self, name: str) -> float:
-        """The value of a quantity, in its unit.
+        """The value of the quantity `name`, in its unit.
 
         Raises:
-            InvalidInput: there is no such quantity; the message suggests the nearest.
+            InvalidInput: no quantity has this name; the message suggests the nearest name.
         """
         return self.values[self._quantity(name)]
 
     def unit(self, name: str) -> str:
-        """Return the unit of a quantity; empty if the quantity is a plain number.
+        """Return the unit of the quantity `name`; empty if the quantity is a plain number.
 
         Raises:
-            InvalidInput: there is no such quantity; the message suggests the nearest.
+            InvalidInput: no quantity has this name; the message suggests the nearest name.
         """
         return self._table.quantities[self._quantity(name)].unit
 
@@ -151,7 +151,7 @@ class World:
             a record of the written files, with remarks.
 
         Raises:
-            InvalidInput: the export cannot be written at `path`, or there is no such part.
+            InvalidInput: the export cannot be written at `path`, or `part` is neither `cell` nor `pump`.
         """
         return exported(path, lambda: initial_state(self.spec, self._task), part, overwrite=overwrite)
 
@@ -160,7 +160,9 @@ class World:
         return page(heading(repr(self)), table(("quantity", "value", "unit", ""), rows))
 
     def _quantity(self, name: str) -> str:
-        """Return the name if it is the name of a quantity. Raises InvalidInput if there is no such quantity."""
+        """Check that a quantity is called `name`, and return this name. Raises InvalidInput if no quantity has this
+        name.
+        """
         if not isinstance(name, str):
             raise BadArgument(f"give a quantity by its name, not by {name!r}")
         found = self._table.select(name, self.spec.overrides.set)

@@ -1,7 +1,7 @@
 """The arm: kinematics and dynamics as a public interface, and the functions on which the servo and the planner are
 built.
 
-Names are loaded on first use, because `import handeye` must not import NumPy.
+Each name is imported when it is first used, because `import handeye` must not import NumPy.
 """
 
 from typing import TYPE_CHECKING

@@ -19,8 +19,8 @@ TORQUE_BITS: Final = 8  # drives: "8 bits or more"
 
 @lru_cache(maxsize=16)
 def position_step(arm: ArmModel) -> Array:
-    """Return one converter step of each potentiometer, shape (n,), in rad or m. The steps of a converter span the
-    range of its joint.
+    """Return the step size of each potentiometer's converter, shape (n,), in rad or m. The steps of a converter span
+    the range of its joint.
     """
     return (arm.upper - arm.lower) / 2**SENSE_BITS
 
@@ -32,7 +32,7 @@ def _half_step(arm: ArmModel) -> Array:
 
 @lru_cache(maxsize=16)
 def rate_step(arm: ArmModel) -> Array:
-    """Return one converter step of each tachometer, shape (n,), in rad/s or m/s. We assume that the range of a
+    """Return the step size of each tachometer's converter, shape (n,), in rad/s or m/s. We assume that the range of a
     converter is the range of the joint's rate, from the greatest negative to the greatest positive rate.
     """
     return 2 * constants(arm).speed / 2**SENSE_BITS

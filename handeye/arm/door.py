@@ -1,8 +1,8 @@
 """Kinematics and dynamics of an arm for Python programs. Arguments are checked.
 
 Joint positions `q` are in rad, and in m for prismatic joints (joint 3 of the Stanford arm). W is the frame of the
-table, T the frame of the hand. `arm` is an arm that a run has measured (`handeye.Run.arm`), by default `STANFORD`, the
-arm of the drawing.
+table, T the frame of the hand. `arm` is the model of the arm: by default `STANFORD`, the arm of the drawing, or
+`handeye.Run.arm`, the arm that a run has measured.
 """
 
 import numpy as np

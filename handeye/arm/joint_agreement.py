@@ -29,12 +29,12 @@ deviations of the scale error of a potentiometer in a world of the level `high`.
 """
 JUMP_STEPS: Final = 4.0
 """Tolerance for the difference between the motions that the two sensors show in one servo period, in converter steps
-of the potentiometer. The tolerance is one step for rounding, plus five standard deviations of the noise. The noise of
-a reading is .2 steps, and .4 steps at the high level.
+of the potentiometer. The tolerance is one step for rounding, plus five standard deviations of the noise in the
+difference of two readings at the high level. The noise of one reading is .2 steps, and .4 steps at the high level.
 """
 STRUCK: Final = 3.0
-"""Factor for the uncertainty of a joint's path if the joint is struck. In one servo period, this uncertainty is the
-product of the factor, the change of the joint's rate and half the period. The factor is our choice.
+"""If a joint is struck, its path in one servo period is uncertain by this factor, times the change of the joint's
+rate, times half the period. The factor is our choice.
 """
 
 
@@ -52,8 +52,9 @@ that creeps.
 
 
 UNEVEN: Final = 0.25
-"""If a swing of a joint differs from the next by more than this fraction of the swing, the tachometer of the joint
-is examined more closely. Our choice: of 278 measurements in three runs without faults, two were above this fraction.
+"""If two successive swings of a joint differ by more than two converter steps plus this fraction of the computed
+swing, the tachometer of the joint is examined more closely. Our choice: of 278 measurements in three runs without
+faults, two were above this fraction.
 """
 STILL_STEPS: Final = 2.0
 """Tolerance, in converter steps, for the median deviation of the rate readings of a joint that is held still.
@@ -96,8 +97,9 @@ class Scatter(Record, frozen=True, kw_only=True):
 
 
 def swings_unevenly(arm: ArmModel, M: Array, dither: Array, rates: Array) -> bool:
-    """Return True if a joint swings unevenly: its rate readings, shape (N, n), change from one swing to the next by
-    more than two converter steps plus the fraction `UNEVEN` of the size of a swing.
+    """Return True if a joint swings unevenly. A joint does so if its rate readings differ between successive swings by
+    more than a tolerance: two converter steps plus the fraction `UNEVEN` of the size of a swing. `rates` has shape (N,
+    n).
 
     The torques `dither`, shape (n,), in N m and N, shake the joints, and change sign in each servo period. The swing
     is computed for a joint without friction, from the inertia and from the damping of the servo.
@@ -210,7 +212,7 @@ class JointAgreement:
 
 @lru_cache(maxsize=16)
 def _tolerances(arm: ArmModel) -> list[tuple[float, float, float]]:
-    """Return the tolerances of each joint: `slack`, `creep` and `steady` of its pair of sensors."""
+    """Return `slack`, `creep` and `steady` for each joint: the tolerances of its two sensors."""
     slack = np.where(constants(arm).prismatic, MAX_SLIDE_GAP, MAX_TURN_GAP) + READING_STEPS * position_step(
         arm
     )
@@ -226,12 +228,12 @@ def jumped(
     blow: Array | None = None,
     throw: Array | float = 0.0,
 ) -> Disagreement | None:
-    """Find the joint whose potentiometer moved, in a servo period, by a distance that does not agree with the rates
-    before and after this period. Returns None if all agree.
+    """Find the joint whose potentiometer moved in a servo period by a distance that contradicts the rates before and
+    after this period. Returns None if the sensors of all joints agree.
 
     A reading that jumps is detected at once, whatever the arm does. `blow` gives the changes of rate that a blow on
-    the hand may have caused within the period (see `blown`). `throw` is how far the joints may have moved because an
-    object shifted in the fingers (see `thrown`). All arrays have shape (n,).
+    the hand may have caused within the period (see `blown`). `throw` is the distance that the joints may have moved
+    because an object shifted in the fingers (see `thrown`). All arrays have shape (n,).
     """
     half, change = arm.servo.period / 2, np.abs(after - before)
     gone = (before + after) * half
@@ -249,8 +251,8 @@ def _jump(arm: ArmModel) -> Array:
 
 
 def blown(here: Dynamics, impulse: Array) -> Array:
-    """Return the largest change of rate, shape (n,), that a blow on the hand may have caused in each joint, even if
-    the joint was stopped again within the same servo period.
+    """Return the largest change of rate, shape (n,), that a blow on the hand may have caused in each joint. The joint
+    may have been stopped again within the same servo period.
 
     `impulse`, shape (n,), N m s and N s, is the part of the change of momentum that the drives, the weight and the
     friction of the arm do not explain. The impulse and the angular impulse on the hand are computed from this part.
@@ -264,9 +266,10 @@ def blown(here: Dynamics, impulse: Array) -> Array:
 
 
 def thrown(M: Array, work: float, period: float) -> Array:
-    """Return how far each joint, shape (n,), can move within a servo period (s) if `work` (J) is done on the hand.
+    """Return the distance that each joint can move within a servo period (s) if `work` (J) is done on the hand; shape
+    (n,), in rad and m.
 
-    If an object shifts in the fingers, the fingers close a little. The work that they do in closing throws the hand.
+    If an object shifts in the fingers, the fingers close a little and do work, which throws the hand.
     The object may stop the hand again within the period, so afterwards neither rate nor momentum shows the throw. A
     joint moves farthest if all the work becomes motion of this joint, at the beginning of the period. `M` is the mass
     matrix, shape (n, n).

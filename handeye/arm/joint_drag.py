@@ -1,11 +1,11 @@
 """Decides what explains the joint torques that remain beyond weight, inertia and load: a single joint, or a force on
 the hand.
 
-In free air the remaining torque is friction. Friction has the sign of the rate, so a joint's friction is half the
-difference between its torques in the two directions, even if the model of its weight is wrong (as in
-`execution.friction_measurement`). This holds if the joint carries the same weight in both directions. If it goes out
-over the table in one direction and back near the column in the other, errors of the weight remain in the difference;
-how far they may reach follows from what the arm has learnt of its weight (`torque_balance`).
+In free air the remaining torque is friction, which has the sign of the rate. If a joint moves in both directions and
+carries the same weight in both, its friction is half the difference between its two torques, even if the model of the
+weight is wrong (as in `execution.friction_measurement`). If the joint goes out over the table in one direction and
+back near the column in the other, errors of the weight remain in the difference. What the arm has learnt of its weight
+limits these errors (`torque_balance`).
 
 A force on the hand acts on several joints at once, as J^T F. At the hand, a torque in one joint alone looks like a
 couple, or like a force at the wrist centre. The lever arm of such a force about the tool centre point is longer than
@@ -69,8 +69,8 @@ def stiff(
     arm: ArmModel, taken: Sequence[Exertion], friction: Array, belief: Array | None = None
 ) -> Stiffness | None:
     """Find the joint whose resistance to a motion is much greater than its measured `friction`, shape (n,). Returns
-    None if there is no such joint. In the periods `taken`, nothing may touch the hand: a force on the hand would
-    count as friction. `arm` and `belief` are the arm as weighed, and what it has learnt of its weight since
+    None if no joint is too stiff. In the periods `taken`, nothing may touch the hand: a force on the hand would count
+    as friction. `arm` is the arm as weighed. `belief` is what the arm has learnt of its weight since that weighing
     (`torque_balance.balanced`).
 
     Torques are averaged over each direction of sliding of each joint, in arrays of shape (2, n).

@@ -98,8 +98,9 @@ def _profile(distance: float, speed: float, ramp: float, period: float) -> tuple
 
 
 def _follow(arm: ArmModel, q_start: Array, X: Pose, V: Array, A: Array) -> Samples | IKResult:
-    """Find the joint positions, rates and accelerations for hand poses, shape (N, 4, 4), twists, shape (N, 6), and
-    rates of twists, shape (N, 6). Returns the reason if the arm cannot follow the poses.
+    """Find the joint positions, rates and accelerations for hand poses `X`, their twists `V` and the twists' rates of
+    change `A`. `X` has shape (N, 4, 4), `V` and `A` have shape (N, 6). Returns the reason if the arm cannot follow the
+    poses.
     """
     if len(X) == 0:
         none = np.zeros((0, len(q_start)))

@@ -24,8 +24,8 @@ class GraspModel:
     give: float = 0.004  # m that the set-point leads fingers that press with all the force allowed; chosen
 
     def lag(self, force: float, grip: float) -> float:
-        """Return how far (m) the gap lags behind its set-point when the fingers press with `force`. `force` is at
-        most `grip`; both are in N.
+        """Return the distance (m) by which the gap lags behind its set-point when the fingers press with `force`.
+        `force` is at most `grip`; both are in N.
         """
         return self.give * force / grip
 
@@ -178,7 +178,7 @@ def digest(arm: ArmModel) -> str:
 
 
 def same_arm(one: ArmModel, other: ArmModel) -> bool:
-    """Return True if all values of two arm models are equal, including values used only in the working phase."""
+    """Return True if all values of two arm models are equal, including the values on which no plan depends."""
     return _figures(one, ()) == _figures(other, ())
 
 

@@ -33,8 +33,9 @@ DAMPING: Final = 0.6  # of viscous friction
 COULOMB: Final = 0.02  # of measured friction, in addition to a quarter of a converter step
 BEARS: Final = 4.0  # least weight that a joint must carry to be checked, in multiples of its friction; chosen
 LIMIT: Final = 5.0
-"""Limit of the remainder of a joint, in multiples of its uncertainty. The uncertainty is one standard deviation. It is
-computed from the errors above; each of them is twice the stated spread.
+"""Limit of the torque of a joint that the estimate does not explain, in multiples of the uncertainty of this torque.
+The uncertainty is one standard deviation, and is computed from the errors above. Each of these errors is twice the
+stated spread.
 
 Assembling a pump takes about 350 motions. If two joints were checked in each motion, a limit of 4 would stop one
 assembly in 20 although all drives work; a limit of 5 would stop one assembly in 2,500. In fact, the arm checks only
@@ -57,7 +58,7 @@ def balanced(
     arm: ArmModel, taken: Sequence[Exertion], friction: Array, belief: Array | None, borne: Array
 ) -> tuple[Array, Unbalanced | None]:
     """Compare the torques of a motion with the estimate made before the motion. Returns two values. The first is the
-    new estimate. The second is the joints that do not balance, or None if all joints balance.
+    new estimate. The second value names the joints that do not balance; it is None if all joints balance.
 
     `arm` is the model with the weighed masses, and `friction` the measured friction. `belief` is the estimate, or
     None if the arm has only been weighed at its first posture. `borne` are the torques that carry a declared load.
@@ -87,12 +88,12 @@ def balanced(
 def weight_difference(
     arm: ArmModel, postures: Array, sliding: NDArray[np.bool_], belief: Array | None
 ) -> Array:
-    """Return how far errors of masses, mass centres and drives may separate the mean torques of a joint in its two
-    directions: half the greatest plausible difference, shape (n,), for a joint that slid in both directions.
+    """Return the effect that errors of masses, mass centres and drives may have on a joint that slides in both
+    directions: half the greatest plausible difference between the mean torques in these directions, shape (n,).
 
     `arm` is the model with the weighed masses, and `belief` the estimate of its errors, as in `balanced`. `postures`
-    are the positions in N servo periods, shape (N, n). `sliding` marks the periods in which each joint slid forwards
-    and backwards, shape (2, N, n).
+    are the positions in N servo periods, shape (N, n). `sliding`, shape (2, N, n), marks the periods in which each
+    joint slid forwards, then the periods in which it slid backwards.
     """
     if belief is None:
         belief = _first_belief(arm, postures)

@@ -25,7 +25,8 @@ DIRECT_KNOT: Final = 1 / 9
 """Place of the inner knots, as a fraction of the path, in a motion without departure or approach. The first inner knot
 lies at this distance after the start, and the last inner knot lies at this distance before the end.
 
-In the worked example of Paul (1972), the fraction is 5 degrees of 45 degrees.
+The worked example of Paul (1972) has the same fraction: its inner knots lie 5 degrees from the ends of a path of 45
+degrees.
 """
 _HEIGHT_SHARES: Final = (1.0, 0.75, 0.5, 0.25)  # of departure and approach, tried in turn
 _END_SHARES: Final = (0.25, 0.35, 0.5, 0.7, 1.0, 1.4)  # durations of the end segments; the middle one: 1

@@ -34,8 +34,8 @@ def weighed(arm: ArmModel, factors: tuple[float, ...]) -> ArmModel:
 
 
 def mass_factors(arm: ArmModel, q: Array, unexplained: Array) -> Array:
-    """Find the factors on the link masses, shape (n,), that explain `unexplained`: the holding torques (N m or N)
-    beyond those that the function `gravity` gives for the model.
+    """Find the factors on the link masses, shape (n,), that explain the torques `unexplained` (N m or N): the torques
+    that hold the arm up, less the torques that the function `gravity` computes from the model.
     """
     doubt = TORQUE_DOUBT * constants(arm).effort
     alone = [gravity(weighed(arm, tuple(one)), q) for one in np.eye(len(arm.joints)).tolist()]  # of each link

@@ -87,7 +87,8 @@ class ArmState(Record, frozen=True, kw_only=True):
 
 
 class SimulatedArm(Mechanism[ArmState], ArmPort):
-    """Motors, brakes and sensors of n joints, named `<prefix>j1`, `<prefix>j2`, ... in the MuJoCo model.
+    """Motors, brakes and sensors of n joints. In the MuJoCo model, the joints are called `<prefix>j1`, `<prefix>j2`,
+    ...
 
     A brake is dry friction in the joint. The brake holds the joint in place, and slips under a torque greater than the
     torque of the brake.
@@ -112,8 +113,8 @@ class SimulatedArm(Mechanism[ArmState], ArmPort):
         the arm's sensors.
 
         The signal lines of an arm are `potentiometer.N`, `tachometer.N`, `drive.N`, `brake.N` and `friction.N` for
-        joint N. The lines `force.x`, `force.y` and `force.z` carry a force at the hand (N, in W), which is 0 in a
-        sound arm; the drives add the torques of this force to the commanded torques. Torques from the
+        joint N. The lines `force.x`, `force.y` and `force.z` carry the offset of the drives as a force at the hand (N,
+        in W): 0 in a sound arm. The drives add the torques of this force to the commanded torques. Torques from the
         computer arrive only while the line `servo` carries 1.
         """
         self.name = prefix.rstrip("/")
@@ -188,7 +189,7 @@ class SimulatedArm(Mechanism[ArmState], ArmPort):
         self._read(q, qd, braked=self._braked)
 
     def _read(self, q: Array, qd: Array, *, braked: bool) -> None:
-        """Store the readings until time passes again, as arrays that cannot be changed."""
+        """Store the readings of the present moment as arrays that cannot be changed."""
         q.setflags(write=False)
         qd.setflags(write=False)
         self._reading = ArmReading(q=q, qd=qd, braked=braked)

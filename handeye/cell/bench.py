@@ -46,8 +46,8 @@ class Bench(Clock, Mechanism[BenchTime]):
     """A scene whose time is counted in whole physics steps, so that machines with different periods stay
     synchronised.
 
-    Machines add themselves to the bench. If the scene allows sleep, bodies at rest are not computed. While all
-    bodies sleep, time passes in one jump, without calls of the functions for single steps.
+    Machines add themselves to the bench. If the scene allows sleep, bodies at rest are not computed. While all bodies
+    sleep, time passes in one jump, and the functions that run at every step are not called.
     """
 
     name = "clock"
@@ -75,8 +75,8 @@ class Bench(Clock, Mechanism[BenchTime]):
         self._parts.append(part)
 
     def cell(self, *others: Mechanism[Any]) -> SnapshotCell:
-        """Make a cell from this bench and the mechanisms `others`. The mechanisms do nothing as time passes. The scene
-        must not change after this call.
+        """Make a cell from this bench and the mechanisms `others`. These other mechanisms do nothing as time passes.
+        The scene must not change after this call.
         """
         noise = np.random.Generator(np.random.PCG64(0))
         return SnapshotCell(self.model, self.data, (self, *self._parts, *others), noise)
@@ -149,8 +149,8 @@ class Bench(Clock, Mechanism[BenchTime]):
         return self._step_of(self._due[0]) - self._steps if self._due else _LATEST
 
     def _step_of(self, due: Due) -> int:
-        """An event is handled before the first physics step that begins at the time of the event or later. Return the
-        number of this step.
+        """Return the number of the physics step before which an event is handled: the first step that begins at the
+        time of the event or later.
         """
         return math.ceil(due.microseconds / (MICROSECONDS * self._tick))
 

@@ -199,8 +199,8 @@ class BenchAxes(Axes, Mechanism[AxesState]):
         """Move the set-points evenly towards the goal during a period. If the set-points jumped to the goal, the
         objects that lie on the axes would be shaken.
 
-        Measured with set-points that jump: on paths planned with 1 m/s2, the acceleration of a platter reached 10.8
-        m/s2 and moved the blocks that lay on it.
+        We have measured this: when the set-points jumped, a platter on paths planned with 1 m/s2 reached an
+        acceleration of 10.8 m/s2, which moved the blocks on the platter.
         """
         if self._left:
             self._left -= 1

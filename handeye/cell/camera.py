@@ -201,7 +201,7 @@ def true_camera(errors: CameraErrors, drawing: CameraModel) -> CameraModel:
 
 def renderer_here(kind: str) -> Literal["gl", "ray"]:
     """Return the renderer, `gl` or `ray`, that is used on this computer if the user asks for `kind`. Raises
-    InvalidInput if no such renderer works on this computer.
+    InvalidInput if no renderer of the kind `kind` works on this computer.
     """
     made = make_renderer(kind, mujoco.MjModel.from_xml_string("<mujoco/>"))
     return "gl" if made.identity.method == "opengl" else "ray"

@@ -3,8 +3,8 @@
 A carrier slides along its axis and turns about it; the pitch couples the two motions. The axis is the axis of the
 tapped hole, unless a screw entered at an angle. The carrier of such a screw takes the axis of the screw, so that the
 screw does not jump when the carrier replaces it. The thread then straightens the screw as the screw turns; a
-cross-threaded screw stays at its angle. The head and shank of a carrier touch other parts only while a screw is in its
-hole, and the shank touches only the bores of gasket and top.
+cross-threaded screw stays at its angle. The head and shank of a carrier touch other parts only while a screw is in the
+carrier's hole. The shank touches only the bores of gasket and top.
 """
 
 from math import exp, pi
@@ -104,7 +104,7 @@ class Carriers:
         self._show(hole, there=False)
 
     def turn_back(self, hole: int, turns: float) -> None:
-        """Raise a screw in its thread by this number of turns, and leave it at rest."""
+        """Raise a screw in its thread by `turns` turns, and leave the screw at rest."""
         self._move(hole, 2 * pi * turns * self._lead - self.depth(hole), 0.0)
 
     def leaning(self) -> list[int]:
@@ -147,7 +147,9 @@ class Carriers:
         self._model.geom_group[self._looks[hole]] = SEEN if there else LATENT
 
     def meet(self, hole: int, model: mujoco.MjModel, *, there: bool) -> None:
-        """In a model of this scene, set whether the head and shank of the screw in a hole touch other parts."""
+        """Let the head and shank of the screw in a hole touch other parts in `model`, a model of this scene. If
+        `there` is False, let them touch nothing.
+        """
         solid = self._solid[hole]
         contype, conaffinity = self._bits[hole] if there else (0, 0)
         model.geom_contype[solid], model.geom_conaffinity[solid] = contype, conaffinity

@@ -78,14 +78,14 @@ class HandErrors:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CameraErrors:
-    """How a TV camera differs from its design."""
+    """The errors of a TV camera, relative to its design."""
 
     place: tuple[float, float, float]  # error of the mount in W, in m
     turn: tuple[float, float, float]  # error of pan, tilt and roll, in rad
     focal_scale: tuple[float, float]  # true over nominal focal length of the 25 mm and the 50 mm lens
     lens_place: tuple[tuple[float, float, float], tuple[float, float, float]]
-    """Error of the position of each lens, in m: forwards, to the right and upwards, as seen in the picture of the
-    lens.
+    """Error of the position of each lens, in m: forwards, to the right and upwards, as seen in the pictures taken with
+    this lens.
     """
     pot_noise: float  # sigma of the pan and tilt readings, in rad
     raster: Raster

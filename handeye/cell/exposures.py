@@ -1,8 +1,9 @@
-"""Fine photographs: the mean of many exposures, each through a different point of the lens and lit from different
-points of the lamp and the sky.
+"""Takes fine photographs. A fine photograph is the mean of many exposures. Each exposure uses different points of the
+lens, the lamp and the sky.
 
 A plain OpenGL picture has hard shadows and jagged edges, and everything in it is in focus. The exposures are averaged
-as light, not as screen values. The mean picture has soft shadows, blur where it is out of focus, and smooth edges.
+as light, not as screen values. The mean picture has soft shadows and smooth edges, and objects out of focus are
+blurred.
 """
 
 from collections.abc import Callable, Iterator
@@ -24,7 +25,7 @@ _TOLD: Final = "gloss/"
 
 
 def polish(scene: mujoco.MjvScene, model: mujoco.MjModel) -> None:
-    """Give the shapes in a prepared scene the gloss that the scene states for their materials."""
+    """Give the shapes in a prepared scene the gloss of their materials in `model`."""
     told = _told(model)
     for shape in scene.geoms[: scene.ngeom]:
         if shape.matid in told:

@@ -31,7 +31,7 @@ class HandState(Record, frozen=True, kw_only=True):
 
 
 class SimulatedHand(Mechanism[HandState], HandPort):
-    """Two fingers, their motor `grip`, and the sensors `switch_a` and `switch_b`. Their names in the MuJoCo model
+    """Two fingers, their motor `grip`, and the sensors `switch_a` and `switch_b`. In the MuJoCo model, all their names
     have a common prefix.
 
     The activation of the actuator `grip` is the set-point of the finger servo, and the control of the actuator is
@@ -55,9 +55,9 @@ class SimulatedHand(Mechanism[HandState], HandPort):
         """Make a hand at rest.
 
         The lines of a hand are `gap_potentiometer`, `finger_motor`, `finger_switch.plus_y` and
-        `finger_switch.minus_y`. The lines `switch_force.plus_y` and `switch_force.minus_y` each carry a factor, by
-        which the hand multiplies the force at which a switch closes. While the line `switches` carries 1, the two
-        switches are exchanged.
+        `finger_switch.minus_y`. The lines `switch_force.plus_y` and `switch_force.minus_y` carry one factor for each
+        switch. The hand multiplies the force at which the switch closes by this factor. While the line `switches`
+        carries 1, the two switches are exchanged.
         """
         self.name = f"{prefix}hand"
         self._model, self._data = model, data
@@ -91,8 +91,8 @@ class SimulatedHand(Mechanism[HandState], HandPort):
         self._command = gap, grip
 
     def before(self, seconds: float) -> None:
-        """Move the set-point towards the commanded gap, but never far ahead of fingers that are blocked. The gap is
-        in the scale of the sensor.
+        """Move the set-point towards the commanded gap, but never far ahead of fingers that are blocked. Set-point and
+        command are in the scale of the sensor.
         """
         if self._command is None:
             return
@@ -201,8 +201,8 @@ class ScrewdriverState(Record, frozen=True, kw_only=True):
 
 
 class SimulatedScrewdriver(Mechanism[ScrewdriverState], ScrewdriverPort):
-    """The motor of a screwdriver. The torque of the motor is read from actuators of the model. The model of the screw
-    threads in the task computes the effect of the screwdriver's speed.
+    """The motor of a screwdriver. The torque of the motor is read from actuators of the model. The task, which models
+    the screw threads, computes the effect of the screwdriver's speed.
     """
 
     name = "screwdriver"

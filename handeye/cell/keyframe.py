@@ -17,7 +17,7 @@ def add_keyframe(spec: mujoco.MjSpec, name: str, data: mujoco.MjData, elsewhere:
     last keyframe of the scene. The scene may lack some bodies of the simulation.
 
     The initial state of the scene is set as well, so that a viewer that loads no keyframe shows the same state.
-    `elsewhere` gives the poses `X_WP` of free bodies that are to rest at another place than in the simulation.
+    `elsewhere` gives new poses `X_WP` for free bodies that should not rest at their places in the simulation.
     """
     for body in spec.bodies:
         if body.joints:

@@ -11,7 +11,7 @@ from handeye.core.pose import Array
 
 Colour = tuple[float, float, float]
 LAMP: Final = "studio_lamp"
-"""Numeric field of a scene that gives the place of the lamp for photographs, in W (m)."""
+"""Name of the numeric field in which a scene states the place (W, m) of the lamp for photographs."""
 CUTOFF: Final = 75.0  # half of the angle of the lamp's cone, degrees
 SHADOWED: Final = 0.5
 """Angle of the inner cone, in which bodies cast shadows, as a fraction of the angle of the lamp's cone. A larger inner
@@ -28,9 +28,9 @@ another place.
 _AWAY: Final = 2.0  # distance of the sky from the middle of the scene, divided by the size of the scene
 _GRAZING: Final = 0.2  # least height of a point of the sky, divided by its distance
 _WANDER: Final = 0.07
-"""How far the middle of the map of shadows moves between exposures, divided by the size of the scene. The map has
-coarse points. They fall on different places in each exposure, so the shadows in the mean of all exposures have smooth
-edges.
+"""How far the middle of the map of shadows moves between exposures, divided by the size of the scene. The map is
+coarse, so the shadows of one exposure have stepped edges. Because the map moves, the steps differ between exposures,
+and the mean of all exposures has smooth edges.
 """
 
 
@@ -123,5 +123,5 @@ def _across(way: Array) -> tuple[Array, Array]:
 
 
 def unit(vector: Array) -> Array:
-    """Return a vector of length 1 in the same direction."""
+    """Return the vector of length 1 in the direction of `vector`."""
     return np.asarray(vector / np.linalg.norm(vector))

@@ -15,8 +15,8 @@ S = TypeVar("S", bound=msgspec.Struct)
 
 @contextmanager
 def scene_for(what: str) -> Iterator[None]:
-    """Raise BadArgument with a clear sentence, instead of KeyError, if the scene lacks a name that is used while
-    the context is open.
+    """While the context is open, convert each KeyError to a BadArgument whose sentence says which name the scene
+    lacks.
     """
     try:
         yield
@@ -45,8 +45,8 @@ class Mechanism(ABC, Generic[S]):
         """Prepare for the next `seconds`."""
 
     def rested(self, seconds: float) -> None:
-        """Let `seconds` pass at once, because everything sleeps. These seconds are not part of the seconds that the
-        method `before` announced.
+        """Let `seconds` pass at once, because everything sleeps. These seconds are in addition to those for which the
+        method `before` is called.
         """
 
     def bind(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:

@@ -30,7 +30,7 @@ def mjcf_files(spec: mujoco.MjSpec, mark: str, told: Mapping[str, str]) -> dict[
     if the installed version of MuJoCo cannot write numbers in full precision.
 
     The specification is changed, because its meshes and textures become files. `mark` is a comment in the first
-    line of the XML. `told` holds the texts of the element `<custom>`, by name.
+    line of the XML. `told` maps the names of the texts in the element `<custom>` to these texts.
     """
     for name, text in told.items():
         spec.add_text(name=name, data=text)

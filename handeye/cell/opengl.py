@@ -41,10 +41,10 @@ _QUALITY: Final = {"shadowsize": 4096, "offsamples": 0, "numstacks": 2}
 
 More samples and rings would have no effect, because four fine points are averaged and the vidicon blurs the picture.
 On the table, a point of the shadow map is .7 mm wide, half as wide as a point of a picture. With a map of 1024 points,
-a point would be 2.8 mm wide, and a push of the pump by .1 mm would change whole squares at the edges of its shadows.
-With that coarse map, the same square in two pictures of a pushed pump differed by up to 2.6 levels. With the map of
-4096 points, or with ray casting, it differed by up to 1.0 level (seed 15, 30 pictures each). With the finer map, a
-picture takes .05 s longer.
+a point would be 2.8 mm wide. If the pump were then pushed by .1 mm, the pictures would change at the edges of its
+shadows. `vision/matching.py` compares the same square of points in two pictures. In pictures of a pushed pump, such a
+square differed by up to 2.6 levels with the coarse map. With the map of 4096 points, or with ray casting, the square
+differed by up to 1.0 level (seed 15, 30 pictures each). With the finer map, a picture takes .05 s longer.
 """
 
 
@@ -153,7 +153,7 @@ def driver() -> str:
 
 @cache
 def context() -> tuple[str, Any]:
-    """Return two values: the name of the platform, and the OpenGL context, of which this process has only one.
+    """Return two values: the name of the platform, and the only OpenGL context of this process.
 
     All renderers share the context, so that the objects of one renderer are never freed in the context of another.
     Raises InvalidInput if OpenGL does not work on this computer. OpenGL is tested with an empty scene, because an

@@ -61,7 +61,7 @@ class Photographer:
     def take(self, model: mujoco.MjModel, data: mujoco.MjData, view: str | Near) -> Photograph:
         """Take a photograph of `model`, which is the scene, or a copy of the scene in which other groups of shapes are
         visible. If the scene states the place of a lamp for photographs, that lamp lights the photograph. Raises
-        InvalidInput if there is no such camera.
+        InvalidInput if the scene does not have this camera.
         """
         self.aimed(model, data, view)
         if lamp_place(model) is None:
@@ -71,7 +71,7 @@ class Photographer:
 
     def aimed(self, model: mujoco.MjModel, data: mujoco.MjData, view: str | Near) -> mujoco.MjvScene:
         """Return the shapes, camera and lights of a view. The caller may change the shapes, camera and lights before
-        the exposure. Raises InvalidInput if there is no such camera.
+        the exposure. Raises InvalidInput if the scene does not have this camera.
         """
         every = int(mujoco.mjtCatBit.mjCAT_ALL)
         mujoco.mjv_updateScene(model, data, self._option, None, _eye(model, data, view), every, self._scene)
@@ -108,7 +108,7 @@ def photograph(
 
 
 def _number(model: mujoco.MjModel, camera: str) -> int:
-    """Return the number of a camera of the scene. Raises InvalidInput if there is no such camera."""
+    """Return the number of a camera of the scene. Raises InvalidInput if the scene does not have it."""
     names = [model.camera(i).name for i in range(model.ncam)]
     if camera not in names:
         there = f"the cameras are {', '.join(names)}" if names else "the scene has no cameras"

@@ -1,29 +1,29 @@
-"""Steps of the physics: none while everything sleeps, long steps while only carried parts touch other bodies, and
-short steps while there are any other contacts. If the task allows middle steps, which are shorter than long steps,
-most of these other contacts are computed in middle steps instead of short steps.
+"""Advances the physics in steps. While everything sleeps, no step is computed. The steps are long while only carried
+parts touch other bodies, and short while there are any other contacts. If the task allows middle steps, which are
+shorter than long steps, most of these other contacts are computed in middle steps instead of short steps.
 
 Contacts need short steps, because their softness grows with the square of the length of the step. Free motion does not
 need short steps: with long steps it has the same speeds, but is early by 1.6 ms, half of the difference between a long
 step and a short step. Brakes and dry friction of joints are constraints, as contacts are, but may be computed in long
 steps. A joint held by friction creeps at up to 9e-6 rad/s with long steps, and at up to 4e-6 rad/s with short steps.
 
-A part that is carried through the air touches only the bodies that hold it. While the part has only these contacts,
-steps may be long too, if the task names the pairs of bodies that touch. In long steps these contacts are made stiffer,
-so that a part sinks as deep into the fingers as in short steps (`stiffened`). Contacts may neither begin nor end in
-long steps. If a finger that presses with 80 N lost its contact with the part in a long step, the finger would move 1.5
-mm into the part before the next step detected the contact, and would throw the part away.
+A part that is carried through the air touches only the bodies that hold it. If the task names the pairs of bodies that
+touch, the steps are long while the part has only these contacts. In long steps these contacts are made stiffer, so
+that a part sinks as deep into the fingers as in short steps (`stiffened`). Contacts may neither begin nor end in long
+steps. If a finger that presses with 80 N lost its contact with the part in a long step, the finger would move 1.5 mm
+into the part before the next step detected the contact, and would throw the part away.
 
 In middle steps, all contacts and couplings are made stiffer in the same way. The forces between bodies at rest are
 therefore the same in short and in middle steps. All contacts except those of the hand may begin and end in middle
 steps. The task names the *delicate* contacts, which need short steps, and the joints that must be at rest in middle
 steps. A screw, for example, is tightened in short steps, because in middle steps it would clamp with less force.
 
-If a part is crushed, for example between a fixture and a hand that runs into it, the computation may diverge in
-short steps. The interval is then computed again in fine steps. So is an interval in which the force on a finger pad is
-greater than hand and arm can exert (`CRUSHING`). For example, a finger presses askew into a corner of a hole, and
-overloaded friction lifts it off for one short step. In this step, the motor drives the free finger .1 mm into the
-corner, where it overlaps several faces at once. The simulator then pushes the finger out with thousands of newtons,
-and so throws the part about in the hand. In fine steps, the finger only slides.
+If a part is crushed, for example between a fixture and a hand that runs into it, the computation may diverge in short
+steps. The same interval of time is then computed again, in fine steps. An interval is also computed again if the force
+on a finger pad is greater than hand and arm can exert (`CRUSHING`). For example, a finger presses askew into a corner
+of a hole, and overloaded friction lifts it off for one short step. In this step, the motor drives the free finger .1
+mm into the corner, where it overlaps several faces at once. The simulator then pushes the finger out with thousands of
+newtons, and so throws the part about in the hand. In fine steps, the finger only slides.
 
 Euler's method moves the joints, and with them the hand, along an arc. It moves a free body along the tangent. For a
 free body, Euler's method thus leaves out the second-order term of the motion: half the acceleration times the square
@@ -65,8 +65,8 @@ most 80 N, and the boom of the arm with at most 200 N. The remaining factor of 3
 """
 _WHOLE_STATE: Final = int(mujoco.mjtState.mjSTATE_INTEGRATION)
 RESTING: Final = 1e-2
-"""A joint that moves no faster than this speed (rad/s, m/s) counts as at rest. Our choice: a joint held by friction
-creeps at less than 1e-4.
+"""A joint that moves no faster than this speed (rad/s, m/s) counts as at rest. The limit is our choice. It is well
+above the creep of a joint that friction holds: less than 1e-4.
 """
 _STIFFEST: Final = 0.9999  # MuJoCo's limit for the impedance of a constraint
 _JUDGED: Final = 1000  # sets of pairs of bodies that are remembered
@@ -247,8 +247,8 @@ class PhysicsStepper:
         )
 
     def _allowed_by(self, pairs: BodyPairs) -> _Contacts:
-        """Judge which steps are allowed while these pairs of bodies touch. The result depends only on the pairs, and
-        many sets of contacts have the same pairs.
+        """Judge which steps are allowed while the bodies in each of the pairs `pairs` touch. The result depends only
+        on the pairs, and many sets of contacts have the same pairs.
         """
         bodies = np.array(sorted(pairs), dtype=np.intp).reshape(-1, 2)
         first, second = self._model.body_treeid[bodies].T
@@ -340,9 +340,9 @@ class PhysicsStepper:
         return tuple(self._free[tree] for tree in sorted(reached - {hand}))
 
     def _add_second_order(self, steps: int, held: tuple[tuple[int, int], ...]) -> None:
-        """Add to the carried bodies the second-order term that Euler's method leaves out when the hand moves along
-        an arc: half the velocity-dependent acceleration, times the square of the long step. The long steps cover
-        the time of `steps` short steps.
+        """Correct the motion of the carried bodies in long steps that cover the time of `steps` short steps. Euler's
+        method leaves out a second-order term when the hand moves along an arc: half the velocity-dependent
+        acceleration, times the square of the long step. The term is added.
         """
         model, data = self._model, self._data
         mujoco.mj_comPos(model, data)
@@ -385,7 +385,8 @@ def wake_all(data: mujoco.MjData, dofs: NDArray[np.int_]) -> None:
 
 
 def let_rest(model: mujoco.MjModel, data: mujoco.MjData) -> None:
-    """Let each tree of bodies without any velocity fall asleep after one step, if it is still at rest then.
+    """Prepare the trees of bodies that have no velocity: each falls asleep after the next step, if the tree is still
+    at rest.
 
     MuJoCo sets the velocities of a sleeping tree to zero, so a tree without any velocity was asleep until now.
     """

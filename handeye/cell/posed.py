@@ -44,7 +44,7 @@ def drawn_poses(model: mujoco.MjModel, names: Iterable[str], times: Array) -> di
 
 
 def _turns(model: mujoco.MjModel) -> dict[str, float]:
-    """Return the rotation rates (turns per second) of the rotating bodies, by name."""
+    """Return the rotation rate (turns per second) of each rotating body. The keys are the names of the bodies."""
     told: list[Any] = [model.numeric(number) for number in range(model.nnumeric)]
     hands = [figure for figure in told if figure.name.startswith(TURNS)]
     return {figure.name.removeprefix(TURNS): 1 / float(figure.data[0]) for figure in hands}
@@ -57,8 +57,9 @@ def posed(scene: mujoco.MjModel, poses: Mapping[str, Sequence[float]], time: flo
     """Make a copy of a scene with its bodies at given poses. The copy is only for viewing: its joint positions stay as
     in the model, and do not fit the poses.
 
-    `poses` gives, for the name of each body, a position in W (m) and a unit quaternion w, x, y, z. A body without a
-    pose stays as in the model, and bodies that appear only after an event stay hidden. Clock hands show `time` (s).
+    `poses` maps the name of a body to the body's pose: a position in W (m) and a unit quaternion w, x, y, z. A body
+    without a pose stays as in the model, and bodies that appear only after an event stay hidden. Clock hands show
+    `time` (s).
     """
     model = copy.copy(scene)
     data = mujoco.MjData(model)

@@ -23,8 +23,8 @@ _SAMPLES: Final = (np.indices((FINE, FINE)).reshape(2, -1).T[:, ::-1] + 0.5) / F
 
 
 class RayRenderer(SceneRenderer):
-    """Casts a ray for every sample. To find the shadows, the renderer then casts a ray from the point that this ray
-    hits to every light. Needs no OpenGL.
+    """Casts a ray for every sample. To find the shadows, the renderer then casts rays to all lights from the point
+    that the first ray hits. Needs no OpenGL.
 
     A picture point has one sample, or four if it lies where the picture changes: at edges of solids and of shadows
     (adaptive sampling after T. Whitted, "An improved illumination model for shaded display", 1980).

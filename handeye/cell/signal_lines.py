@@ -78,7 +78,7 @@ class SignalLines(Mechanism[SignalLinesState]):
         self._states = list(starts)
 
     def begin_stage(self, number: int) -> None:
-        """Start the defects that begin with this stage, or with an earlier stage that was skipped."""
+        """Start the defects that begin with stage `number`, or with an earlier stage that was skipped."""
         for place, defect in enumerate(self.defects):
             if self._states[place].seconds is None and defect.stage is not None and defect.stage <= number:
                 self._states[place] = DefectState(seconds=0.0)
@@ -96,7 +96,9 @@ class SignalLines(Mechanism[SignalLinesState]):
         return float(self._arriving(line, np.array(value, dtype=float))) if self.defects else value
 
     def carried_each(self, line: str, values: Array) -> Array:
-        """Return the numbers that arrive on `line.1`, `line.2` and so on, shape (n,)."""
+        """Return the numbers that arrive on the lines `LINE.1`, `LINE.2` and so on, where LINE is the value of `line`;
+        shape (n,).
+        """
         if not self.defects:
             return values
         return np.array([self.carried(f"{line}.{number}", value) for number, value in enumerate(values, 1)])

@@ -1,5 +1,5 @@
-"""The solids of a scene, by name, as trimesh meshes; and the scene as a glTF file (GLB) that contains these
-solids.
+"""Converts the solids of a scene to trimesh meshes, each with its name, and writes the scene as a glTF file (GLB) that
+contains these solids.
 
 A solid is a coloured surface with a mass. A solid also records whether its surface is closed. If a surface consists of
 several coloured pieces in the scene, these pieces form one solid. A surface is closed only if neighbouring faces share
@@ -84,7 +84,7 @@ def _primitive(model: mujoco.MjModel, geom: mujoco.MjsGeom, name: str) -> Solid:
 
 
 def _mesh(geom: mujoco.MjsGeom, mesh: str, shape: trimesh.Trimesh, colours: Array, *, again: int) -> Solid:
-    """Make a solid from a mesh. `again` is how many times the body has already used this mesh."""
+    """Make a solid from a mesh. `again` is the number of times that the body has already used this mesh."""
     name = f"{mesh}{again}" if again else mesh
     return Solid(name=name, mesh=mesh, shape=shape, X_BS=_pose(geom.quat, geom.pos), colours=colours)
 
@@ -181,8 +181,8 @@ _ROUGH: Final = 0.7
 
 
 def glb(scene: SolidScene, told: Mapping[str, str]) -> bytes:
-    """Write a scene in its present state as a GLB file. `told` gives the texts for the `extras` of the scene, by
-    name.
+    """Write a scene in its present state as a GLB file. `told` maps names to texts; the file contains them as the
+    `extras` of the scene.
     """
     data = mujoco.MjData(scene.model)
     mujoco.mj_forward(scene.model, data)

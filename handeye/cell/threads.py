@@ -72,8 +72,8 @@ class Thread(Record, frozen=True, kw_only=True):
     crossed: bool = False  # it has cut a thread of its own
     scarred: bool = False  # a screw has been crossed in it, now or before
     clamp: float = 0.0
-    """Force (N) of the head of the screw on the part beneath, from the time when the screw was last turned, smoothed
-    over a few ticks.
+    """Force (N) with which the head of the screw pressed on the part beneath when the screw was last turned. The force
+    is smoothed over a few ticks.
     """
 
 
@@ -197,7 +197,7 @@ class Threads(Mechanism[ThreadsState]):
     # --- loose screws ---
 
     def _engage(self, seconds: float) -> None:
-        """Let each loose screw that meets the conditions enter its thread within the next `seconds`."""
+        """Let each loose screw enter a thread if it meets the conditions of `_bites` within the next `seconds`."""
         taken = {hole.screw for hole in self.holes}
         mouths = self._data.xpos[self._base] + self._carriers.mouths @ self._axes().T
         for j, body in enumerate(self._screw):

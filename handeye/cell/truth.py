@@ -1,5 +1,5 @@
-"""The true state of a simulated cell. Only the referee, the trace and tests may use the true state, never the working
-phase.
+"""The true state of a simulated cell. Only the referee, the trace and tests may use the true state; the program and
+the controller must not.
 """
 
 import copy
@@ -27,7 +27,9 @@ class Truth:
     mechanisms: tuple[Mechanism[Any], ...]
 
     def copy(self) -> tuple[mujoco.MjModel, mujoco.MjData]:
-        """Copy the state for experiments. In the copy all bodies are awake, and the shortcuts for speed are off."""
+        """Copy the state for experiments. In the copy all bodies are awake, and the shortcuts that make the simulation
+        faster are off.
+        """
         kind = int(mujoco.mjtState.mjSTATE_INTEGRATION)
         state = np.empty(mujoco.mj_stateSize(self.model, kind))
         mujoco.mj_getState(self.model, self.data, state, kind)

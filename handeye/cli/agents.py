@@ -30,7 +30,7 @@ def mcp(
         ),
     ] = None,
 ) -> int:
-    """Serve an agent (model context protocol over standard input and output): twelve tools to write and judge programs.
+    """Offer an agent twelve tools to write and judge programs, over standard input and output (model context protocol).
 
     Needs the extra `mcp`. The command ends when the agent closes the connection; `handeye resume` resumes a run that
     was in progress.
@@ -99,8 +99,8 @@ def bench_agents(
         Literal["verdict", "errors", "trace"] | None,
         Parameter(
             help="Feedback that the entrant gets between two rounds, from the runs of its program in the public "
-            "worlds. verdict: the verdict in each world; errors: also the errors, and what the referee measured in "
-            "the worlds in which it accepts the program; trace: also what each step did. Default: verdict; with "
+            "worlds. verdict: the verdict in each world. errors: also the errors, and for each accepted run, what "
+            "the referee measured. trace: also what the last steps of each other run did. Default: verdict; with "
             "--try: errors."
         ),
     ] = None,

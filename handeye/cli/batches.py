@@ -94,7 +94,7 @@ def assembly_trials(
     from handeye.trials.sweep import Case
 
     if options.tables is not None and options.folder is None:
-        raise BadArgument("--tables needs --out: the tables are written to this folder")
+        raise BadArgument("--tables needs --out, the folder to which the tables are written")
     if scheduler is not None and engine != "dask":
         raise BadArgument("--scheduler needs --engine dask")
     chosen = seeds_of(n, seed, seeds, usual=COUNT)

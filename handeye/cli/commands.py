@@ -33,7 +33,7 @@ explain = editing:explain: Explain a diagnostic code, an error number or an inst
 docs = docs:docs: List the pages of the documentation, or print one.
 exercise = exercises:exercise: List the exercises of the course, show one of them, or grade a program. A grade says in which worlds the program is right, and gives hints.
 lsp = editing:lsp: Serve an editor over standard input and output (language server protocol).
-mcp = agents:mcp: Serve an agent (model context protocol over standard input and output): twelve tools to write and judge programs.
+mcp = agents:mcp: Offer an agent twelve tools to write and judge programs, over standard input and output (model context protocol).
 export: Export a world, or the state of a run, to other programs.
 export mjcf = exports:mjcf: Write a scene that plain MuJoCo can load: scene.xml, its meshes and textures, and a README.
 export glb = exports:glb: Write the solids of a scene for programs that show or measure shapes; check that each solid is closed and has the right mass.
@@ -61,15 +61,15 @@ trials dismantling = batches:dismantling_trials: Assemble in many worlds, make t
 trials disturbed = trials:disturbed_trials: Disturb a finished pump without telling the program, then take the pump apart: does a guard stop the arm before the arm does damage?
 trials compare = batches:compare_trials: Compare one or more batches of trials with the first batch, world by world, to see how much a sensor, or an error of the world, changes the success rate.
 trials base = trials:base_vision_trials: Find the base of the pump on the belt, at many poses: how often it is found, how accurately, and how often in the wrong place.
-trials gasket = trials:gasket_vision_trials: Inspect gaskets by camera: in place, shifted by .3 in, absent, and one on top of another.
+trials gasket = trials:gasket_vision_trials: Inspect the gasket by camera in four cases: in place, shifted by .3 in, absent, and with a second gasket on top.
 trials chaos = trials:chaos_trials: Chaos test: random faults, crashes, interruptions and operator answers; each failure is reduced to one command that repeats it.
 trials mutants = mutants:mutant_trials: Make mutants of a program, each with one check taken away or weakened. Does the proof refuse each mutant? If not, does another check catch the faults for which the changed check was meant?
 trials record = datasets:record: Record runs in many worlds, each with its trace in a folder of its own: for data sets and reports.
-trials rare = rare:rare_trials: Estimate how rarely a program stops, and how rarely it fails silently, by subset simulation.
+trials rare = rare:rare_trials: Estimate, by subset simulation, how rarely a program stops, and how rarely it fails silently.
 trials worst = rare:worst_trials: Find the failing worlds whose errors are smallest, and the quantities that make the program fail.
 env: Gymnasium environments of the cell, for learned policies; need the extra `env` (gymnasium).
 env list = environments:environments: List the Gymnasium environments: their ids, jobs and time limits.
-env evaluate = environments:evaluate: Evaluate a policy: success rate and false-done rate with their confidence intervals, steps of the work reached, peak force and time.
+env evaluate = environments:evaluate: Evaluate a policy: success rate and false-done rate with their confidence intervals, how many steps of the work it reached, peak force and time.
 bench: Benchmarks: stage times, inserting a pin into a hole, and programs that agents write.
 bench timing = benches:timing: Assemble once and print the times of the stages next to those of 1973.
 bench agents = agents:bench_agents: Score programs that agents write, in worlds that the agents have not seen; silent failures count twice.
@@ -82,8 +82,8 @@ sentence of the command's docstring; a group of commands has no function. The mo
 
 class _Command(CommandSpec):
     def resolve(self, parent_app: App) -> App:
-        """Import the command. The docstring of the command is its help. A list of commands shows the sentence in the
-        table `COMMANDS` instead of the docstring, so the commands need not be imported for the list.
+        """Import the command. The docstring of the command is its help. The table `COMMANDS` has one sentence for each
+        command. A list of commands shows these sentences, so the list needs no import of the commands.
         """
         self.help = None
         restore_docstring(loaded(self.import_path, "the command at "))

@@ -38,8 +38,9 @@ def exercise(
     first_seed: Annotated[
         WholeNumber | None,
         Parameter(
-            help="Try your program in other worlds, as many as the exercise has. --first-seed gives the seed of the "
-            "first of these worlds; each further world has the next seed. Default: the worlds of the exercise."
+            help="Try your program in other worlds than those of the exercise, but in the same number of worlds. "
+            "--first-seed gives the seed of the first of these worlds; each further world has the next seed. "
+            "Default: the worlds of the exercise."
         ),
     ] = None,
     jobs: Annotated[WholeNumber, Parameter(help="Number of processes that work at the same time.")] = 2,

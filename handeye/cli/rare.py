@@ -209,10 +209,10 @@ ANY_SAMPLE: Final = SampleOptions()
 
 
 def rare_trials(*, options: SampleOptions = ANY_SAMPLE) -> int:
-    """Estimate how rarely a program stops, and how rarely it fails silently, by subset simulation.
+    """Estimate, by subset simulation, how rarely a program stops, and how rarely it fails silently.
 
-    The worlds of the first level are made from seeds. From each level, the search takes the tenth of the worlds in
-    which the program comes closest to failing. The next level is a sample of worlds in which the program comes at
+    The worlds of the first level are made from seeds. From each level, the search takes one tenth of the worlds: those
+    in which the program comes closest to failing. The next level is a sample of worlds in which the program comes at
     least this close to failing. The estimate of the probability is a product: one tenth for each level except the
     last, times the fraction of worlds of the last level in which the program fails. The product is not a bound. Only a
     run in a world decides whether the program fails there.

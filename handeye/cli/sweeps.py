@@ -69,7 +69,7 @@ class SweepOptions:
 
         positive(self.jobs, "process")
         if self.tables is not None and self.folder is None:
-            raise BadArgument("--tables needs --out: the tables are written to this folder")
+            raise BadArgument("--tables needs --out, the folder to which the tables are written")
         if self.out is None:
             return
         if self.folder is None:

@@ -101,8 +101,9 @@ def verify(run: RunOrTrace = None, /, *, task: TaskWords = None) -> int:
     """Repeat a recorded run, and compare the repetition with the recording.
 
     The actions of operators and experimenters are repeated as well. An interrupted run is compared up to its last
-    complete step. There are three answers: the run repeats exactly; it repeats except for rounding in the last digits,
-    as on another kind of processor or with other versions; or it differs, and the answer says where.
+    complete step. There are three answers. The run repeats exactly. The run repeats except for rounding in the last
+    digits, which differs on another kind of processor or with other versions. Or the run differs, and the answer says
+    where.
 
     Exit code 0: the run repeats, exactly or except for rounding; 1: it differs; 2: bad input.
     """

@@ -61,7 +61,7 @@ class AttemptOptions:
     camera: Camera = "auto"
 
     def carry_out(self, name: str, count: int, options: SweepOptions) -> int:
-        """Run `count` trials of the task; raises NoSuchName if the task has no trial with that name."""
+        """Run `count` trials of the kind `name`; raises NoSuchName if the task has no such kind of trial."""
         from handeye.trials.eye import EyeWork, eye_cases, eye_sweep
         from handeye.trials.folder import head_of
 
@@ -118,12 +118,12 @@ def gasket_vision_trials(
     attempts: AttemptOptions = ATTEMPTS,
     options: SweepOptions = ANY,
 ) -> int:
-    """Inspect gaskets by camera: in place, shifted by .3 in, absent, and one on top of another.
+    """Inspect the gasket by camera in four cases: in place, shifted by .3 in, absent, and with a second gasket on top.
 
     The camera cannot see a second gasket on top of the first, so accepting two gaskets counts as right here; in a
     run, the hand detects two gaskets by their height.
 
-    Exit code 0: no shifted or absent gasket was accepted; 3: such a gasket was accepted.
+    Exit code 0: no case with a shifted or absent gasket was accepted; 3: such a case was accepted.
     """
     return attempts.carry_out("gasket", n, options)
 
@@ -223,9 +223,9 @@ def chaos_trials(
     killed process. After each interruption, the run resumes from disk. A simulated operator answers each call: it
     retries, skips, proceeds or aborts. The same schedule then runs again without its interruptions.
 
-    The checks: the program never reports success with a wrong pump (`silent`); trace, events and state are the same to
-    the byte as without interruptions (`resume`); the brakes are on after every stop (`brakes`); the trace can be read
-    and says what happened (`trace`); nothing is lost on disk (`disk`); and no exception is raised (`error`). If a
+    There are six checks. `silent`: the program never reports success with a wrong pump. `resume`: trace, events and
+    state are the same to the byte as without interruptions. `brakes`: the brakes are on after every stop. `trace`: the
+    trace can be read and says what happened. `disk`: nothing is lost on disk. `error`: no exception is raised. If a
     schedule fails, the trial removes its elements one by one, and keeps only those without which the schedule does not
     fail. The trial then prints this shortest failing schedule as a command. If a fault spoiled a part of the pump only
     after the program's last look at this part, the schedule is `unseen` instead of silent. Before the schedules, the

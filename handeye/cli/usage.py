@@ -19,10 +19,10 @@ _NOUNS: Final[dict[object, str]] = {float: "a number", int: "a whole number"}
 
 
 FORMER: Final = {
-    "--output": ("--out", "--out, or -o, names every file or folder that is written"),
+    "--output": ("--out", "--out, or -o, gives the file or folder to write"),
     "--workers": ("--jobs", "--jobs sets the number of processes"),
     "--width": ("--size", "--size sets width and height, as in 1280x960"),
-    "--svg": ("--out", "--out, or -o, names every file or folder that is written"),
+    "--svg": ("--out", "--out, or -o, gives the file or folder to write"),
     "--height": ("--size", "--size sets width and height, as in 1280x960"),
 }
 """Options of earlier versions, each with its present name and a sentence about it."""

@@ -81,8 +81,8 @@ def view(
     untold = not (demo or world.chosen or world.task or fault or camera != "auto" or out is not None)
     if file is None and untold and (newest := newest_run()) is not None:
         note(
-            f"showing the newest run, {newest}; `handeye view water_pump` begins a new run, to go through step by "
-            "step"
+            f"showing the newest run, {newest}; `handeye view water_pump` begins a new run, which you control step "
+            "by step"
         )
         return _play(newest, port)
     link = Link()

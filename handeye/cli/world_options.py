@@ -247,7 +247,7 @@ class WorldOptions:
 def broken(
     world: WorldSpec, options: list[str] | None, work: "AnyTask", listing: "Listing | None" = None
 ) -> WorldSpec:
-    """Add the faults that `options` names to a world. Raises InvalidInput if a named fault, value or stage does not
+    """Add to a world the faults that `options` names. Raises InvalidInput if a named fault, value or stage does not
     exist.
 
     Args:

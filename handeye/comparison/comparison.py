@@ -93,7 +93,7 @@ class ComparedRun:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Stages:
-    """A stage in both runs. The figures of a run that did not reach the stage are None."""
+    """A stage in both runs. `a` or `b` is None if this run did not reach the stage."""
 
     name: str
     a: StageFigures | None

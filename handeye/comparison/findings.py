@@ -61,7 +61,7 @@ def _found(each: CarriedOut) -> Iterator[Correction]:
 
 
 class Stop(Record, frozen=True, kw_only=True):
-    """How a guarded motion ended: the guard that tripped, and the value that it sensed."""
+    """The end of a guarded motion: the guard that tripped, and the value that it sensed."""
 
     place: Place
     guard: GuardKind | None  # The guard that ended the motion; None if no guard did

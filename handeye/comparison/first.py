@@ -60,8 +60,8 @@ class Stretch:
 
 
 def stretches(trace: Trace, *, unseen: int, periods: bool = True) -> Iterator[Stretch]:
-    """Split a trace into stretches, one per step. If a step begins a stage, the event of the stage and the
-    poses recorded at that moment belong to the step's stretch.
+    """Split a trace into stretches, one per step. If a step begins a stage, its stretch includes the event of the
+    stage, and the poses recorded with this event.
 
     Args:
         unseen: number of an event; messages that belong to earlier events are left out.
@@ -150,14 +150,14 @@ class First:
     period: int | None = None  # servo period of the step, counted from 1; None outside servo periods
     differing: QuantityDifference
     next: tuple[AnyEvent | None, AnyEvent | None] = (None, None)
-    """If the first difference is that the runs have different events: the next event of each run. None for a run that
-    has ended, or whose step continues with a servo period.
+    """The next event of each run in this step. Both are None if the runs differ in something other than their events.
+    One is None if a servo period comes first in its run, or if the step has no further events.
     """
 
     @property
     def place(self) -> Place | None:
-        """The step of the first run in which the difference lies. If the first run has not begun or has ended there,
-        this is the step of the second run.
+        """The step in which the runs differ: the step of the first run or, if this run has not begun or has ended
+        already, the step of the second run.
         """
         return self.a or self.b
 

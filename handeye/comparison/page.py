@@ -120,7 +120,7 @@ def _own(name: str) -> str:
 
 
 SIDES: Final = (("A", "a"), ("B", "b"))
-"""The letter of each run, as the page shows it and as it stands in the names of HTML elements."""
+"""The letter of each run. The page shows the first form; the names of HTML elements contain the second form."""
 _SPEEDS: Final = (1, 4, 16, 64)
 _USUAL: Final = 4
 

@@ -54,7 +54,7 @@ def _aligned_texts(before: Sequence[str], after: Sequence[str]) -> Sequence[Pair
 
 
 def place_of(run: RecordedRun, started: StepStarted) -> Place:
-    """Return the place in the script of a step that was begun."""
+    """Return the place of a step in the script. `started` is the event with which the step began."""
     program = listing_of(run)
     return Place(
         stage=program.stages[program.steps[started.step].stage],
@@ -122,8 +122,8 @@ class TwoRuns:
 
     @cached_property
     def numbers(self) -> tuple[Mapping[int, int], Mapping[int, int]]:
-        """For each program, a map from the number of each step to the number of its partner, which is a step of the
-        other program.
+        """Two dictionaries, one for each program. Each maps the number of a step to the number of the step's partner
+        in the other program.
         """
         a, b = (
             {step: number for number, pair in enumerate(self.pairs) if (step := pair[side]) is not None}
@@ -170,8 +170,8 @@ class Leg:
 
     begin: float  # s on the common timeline
     a: float
-    """Time in the first run at the beginning of the leg, in s since that run began. During the leg, this time advances
-    evenly to its value at the beginning of the next leg.
+    """Time in the first run at the beginning of the leg, in s since that run began. During the leg, the time in the
+    run advances evenly to the value of `a` in the next leg.
     """
     b: float
     places: tuple[Place | None, Place | None]

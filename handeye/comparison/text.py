@@ -204,8 +204,8 @@ def _counted(what: str, alike: str, found: Sequence[Searches | Stops | Correctio
 
 
 def _took(found: Comparison) -> Iterator[str]:
-    """Yield a row for each stage, and a row for the total. A row gives the simulated seconds of each run, and how many
-    seconds longer run B took.
+    """Yield a row for each stage, and a row for the total. A row gives the simulated seconds of run A, those of run B,
+    and the difference.
     """
     wide = max(map(len, ("Seconds", *(stage.name for stage in found.stages))))
     yield f"{'Seconds':{wide}}{'A':>9}{'B':>9}{'B - A':>9}"

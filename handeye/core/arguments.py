@@ -1,4 +1,6 @@
-"""Checks the arguments of users where they enter the program, so that a wrong argument gives one clear sentence."""
+"""Checks each argument of a user as soon as the program receives it, so that a wrong argument gives one clear
+sentence.
+"""
 
 import os
 from collections.abc import Iterable
@@ -34,7 +36,7 @@ def given_file(given: object, what: str) -> Path:
 
 
 def _check_name(name: str) -> None:
-    """Raise InvalidInput if no file can have this name, because it is too long or contains a NUL character."""
+    """Raise InvalidInput if no file can be called `name`, because the name is too long or contains a NUL character."""
     try:
         os.lstat(name)
     except (FileNotFoundError, NotADirectoryError):
@@ -45,7 +47,7 @@ def _check_name(name: str) -> None:
 
 
 def given_names(given: object, what: str) -> tuple[str, ...]:
-    """Check names that a caller gave as an iterable, or a single name. Returns them as a tuple."""
+    """Check the names that a caller gave: a single name, or an iterable of names. Returns the names as a tuple."""
     names = (given,) if isinstance(given, str) or not isinstance(given, Iterable) else tuple(given)
     for name in names:
         if not isinstance(name, str):

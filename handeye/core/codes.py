@@ -1,4 +1,4 @@
-"""All kinds of diagnostics, by code."""
+"""The table of all kinds of diagnostics. The key of a kind is its code."""
 
 from collections.abc import Mapping
 from typing import Final, Literal
@@ -43,7 +43,7 @@ CODES: Final[dict[str, Code]] = {
         "an UNDO has no test before it, so the stage is always undone", "MOVE P\nUNDO STAGE"
     ),
     "aoj-without-search": _warning(
-        "an AOJ has no SEARCH before it, whatever path the program takes", "L: MOVE T\nAOJ L"
+        "an AOJ has no SEARCH before it on any path of the program", "L: MOVE T\nAOJ L"
     ),
     "axis-count": _error(
         "the number in a FREE or SPIN differs from the number of axes named after it", "FREE 2 X\nCHANGE X 1"
@@ -61,7 +61,8 @@ CODES: Final[dict[str, Code]] = {
         "LOOK BEFORE\nLOOK AFTER\nINSPECT BASE BEFORE AFTER",
     ),
     "count-begun-anew": _warning(
-        "an ASSIGN is inside the loop that counts down its counter, so every round starts the count again",
+        "a loop that counts down a counter also contains an ASSIGN of this counter, so every round starts the "
+        "count again",
         "L: ASSIGN N 2\nMOVE T\nSOJG N L",
     ),
     "empty-program": _error("the program has no instructions", "; nothing"),
@@ -131,7 +132,7 @@ CODES: Final[dict[str, Code]] = {
     "modifier-twice": _error("a motion has two modifiers of the same kind", "STOP 50\nTORQUE 9\nMOVE T"),
     "modifier-without-motion": _error("a modifier is not followed by a motion", "STOP [0 0 -50]\nOPEN 1"),
     "never-saved": _warning(
-        "a RESTORE or HEIGHT has no SAVE of the same name before it, whatever path the program takes",
+        "a RESTORE or HEIGHT has no SAVE of the same name before it on any path of the program",
         "MOVE T\nRESTORE H",
     ),
     "number-out-of-range": _error("a number is too small or too large for its operand", "OPEN 5"),
@@ -175,9 +176,7 @@ CODES: Final[dict[str, Code]] = {
     "restore-without-move": _error(
         ("a RESTORE has no goal to shift, because no MOVE is directly before it"), "SAVE H\nOPEN 1\nRESTORE H"
     ),
-    "save-without-move": _warning(
-        "a SAVE has no MOVE before it, whatever path the program takes", "CLOSE\nSAVE H"
-    ),
+    "save-without-move": _warning("a SAVE has no MOVE before it on any path of the program", "CLOSE\nSAVE H"),
     "search-begun-anew": _warning(
         "a SEARCH is inside its own loop, so every round of the loop restarts the search",
         "L: SEARCH .07\nMOVE T\nSTOP 50\nCHANGE Z -1\nSKIPE 23\nAOJ L",
@@ -187,7 +186,7 @@ CODES: Final[dict[str, Code]] = {
         "MOVE T\nSEARCH .07\nL: STOP 50\nCHANGE Z -1\nSKIPE 23\nAOJ L",
     ),
     "search-without-aoj": _warning(
-        "a SEARCH has no AOJ after it, whatever path the program takes", "SEARCH .07\nMOVE T"
+        "a SEARCH has no AOJ after it on any path of the program", "SEARCH .07\nMOVE T"
     ),
     "skip-at-end": _error("a SKIPE or SKIPN has no instruction after it", "PARK\nSKIPE 23"),
     "skip-over-modifier": _error(
@@ -198,7 +197,7 @@ CODES: Final[dict[str, Code]] = {
         "        CLOSE   .1\n        SKIPN   2\n            OPEN    1\n            PARK\n        WHERE",
     ),
     "specific-without-general": _warning(
-        "a SPECIFIC has no GENERAL before it, whatever path the program takes", "LOOK V\nSPECIFIC BASE V"
+        "a SPECIFIC has no GENERAL before it on any path of the program", "LOOK V\nSPECIFIC BASE V"
     ),
     "stage-twice": _error("two stages have the same name", 'STAGE "A"\nPARK\nSTAGE "A"\nPARK'),
     "stop-away-from-motion": _warning(
@@ -210,8 +209,8 @@ CODES: Final[dict[str, Code]] = {
         "warning",
     ),
     "test-of-no-effect": _warning(
-        "a test can skip only the test after it, so the instructions after both tests do not depend on the error "
-        "of the first test",
+        "a test has no effect because the next instruction is another test: the program continues in the same way "
+        "whether or not the error of the first test was raised",
         "L: CLOSE .1 .2\nSKIPE 2\nSKIPE 7\nJUMP L\nPARK",
     ),
     "test-without-action": _warning("a test has no action directly before it", "SKIPE 23\nPARK"),
@@ -233,7 +232,7 @@ CODES: Final[dict[str, Code]] = {
         "CHANGE Z .6\nTRAVEL .7 .9",
     ),
     "travel-without-change": _warning(
-        "a TRAVEL has no CHANGE before it, whatever path the program takes", "PARK\nTRAVEL .1 .2"
+        "a TRAVEL has no CHANGE before it on any path of the program", "PARK\nTRAVEL .1 .2"
     ),
     "typed-word": _error("a console command is written in a script", "OPEN 3\nDO PARK"),
     "unexpected-character": _error("a character is not part of the language", "OPEN = 1"),

@@ -167,8 +167,8 @@ def names_sentence(names: SimilarName | KnownNames | None) -> str | None:
 
 
 def nearest(name: str, known: Iterable[str], farthest: int) -> str | None:
-    """Find a known name that looks the same as `name`. If there is no such name, find the known name at the least edit
-    distance from `name`. Returns None if that distance is greater than `farthest`.
+    """Find a known name that looks the same as `name`. If no known name does, find the known name at the least edit
+    distance from `name`, or return None if this distance is greater than `farthest`.
     """
     choices = sorted(set(known))
     if _too_many(name, choices):

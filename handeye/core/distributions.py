@@ -88,7 +88,7 @@ class _Constant(Distribution):
 
 @dataclass(frozen=True, slots=True)
 class Noise(_Constant):
-    """Standard deviation of a sensor's noise. It is the same in all worlds with the same error level."""
+    """Standard deviation of a sensor's noise. This deviation is the same in all worlds with the same error level."""
 
     name = "noise"
 
@@ -102,7 +102,7 @@ class Fixed(_Constant):
 
 @dataclass(frozen=True, slots=True)
 class Step(_Constant):
-    """Step of an analogue-to-digital converter. It is the same in all worlds, whatever the error level."""
+    """Step of an analogue-to-digital converter. This step is the same in all worlds, whatever the error level."""
 
     name = "step"
     is_error = False
@@ -161,7 +161,7 @@ class Choice(Distribution):
 
 
 def _standard(probability: float) -> float:
-    """Return the quantile of the standard normal distribution at this probability."""
+    """Return the quantile of the standard normal distribution at `probability`."""
     return _NORMAL.inv_cdf(min(max(probability, _RAREST), 1.0 - _RAREST))
 
 

@@ -109,8 +109,8 @@ def register(entry: Entry) -> None:
 
 
 def entries() -> Mapping[str, Entry]:
-    """Return all entries by name: the entries included with handeye, the entries of installed packages, and the
-    entries of registered systems.
+    """Return the entries included with handeye, the entries of installed packages, and the entries of registered
+    systems. The keys are the names of the systems.
     """
     return {entry.name: entry for entry in (*_installed(), *_registered.values())}
 
@@ -143,7 +143,7 @@ _broken: Final[dict[str, str]] = {}  # reasons, by entry point
 
 
 def entry_named(name: str) -> Entry:
-    """Return the entry of a system. Raises NoSuchName if there is no system of that name."""
+    """Return the entry of the system `name`. Raises NoSuchName if no system has this name."""
     known = entries()
     if name in _broken:
         raise BadFile(f"the system {quoted(name)} cannot be loaded: {_broken[name]}")
@@ -154,7 +154,7 @@ def entry_named(name: str) -> Entry:
 
 def loaded(place: str, what: str = "") -> Any:
     """Import the object at `module:NAME`. Raises BadFile if the object cannot be imported. The error message begins
-    with the text `what`, which the location follows.
+    with the text `what` and the location.
     """
     module, _, name = place.partition(":")
     try:
@@ -167,7 +167,7 @@ def loaded(place: str, what: str = "") -> Any:
 
 
 def entry_of_file(name: str) -> tuple[Entry | None, str]:
-    """Find the entry of the system in whose language a file is written, by the ending of the file's name. Returns two
+    """From the ending of a file's name, find the system in whose language the file is written. Returns two
     values: the entry, and the longest ending that matches. If no ending matches, the values are None and "".
     """
     known = {ending: entry for entry in entries().values() for ending in entry.languages}
@@ -176,8 +176,8 @@ def entry_of_file(name: str) -> tuple[Entry | None, str]:
 
 
 def refusal(name: str, capability: Capability, whose: str = "") -> Refused:
-    """Make the exception for a system that lacks a capability. `whose` names the run or file concerned; it is empty if
-    there is no such run or file.
+    """Make the exception for a system that lacks a capability. `whose` names the run or file that needs the
+    capability; it is empty if neither is concerned.
     """
     entry = entry_named(name)
     why = entry.reasons.get(capability, "")
@@ -195,8 +195,8 @@ FILE = "entry_points.txt"
 
 
 def entry_points(group: str) -> dict[str, str]:
-    """Return the entry points of a group: `module:NAME` by name. `importlib.metadata` is imported only if some
-    package has entry points.
+    """Return the entry points of a group. The keys are their names, and the values are locations `module:NAME`.
+    `importlib.metadata` is imported only if some package has entry points.
     """
     heading = f"[{group}]"
     if not any(heading in file.read_text("utf-8", "replace") for path in sys.path for file in _files(path)):

@@ -139,7 +139,7 @@ from 50 on usually mean a faulty sensor or drive.
 
 
 class MissingExtra(Refused):
-    """Raised when a package is missing that one of handeye's extras would install."""
+    """Raised when a package of one of handeye's extras is not installed."""
 
     def __init__(self, command: str, package: str, extra: str) -> None:
         super().__init__(

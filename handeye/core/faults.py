@@ -41,7 +41,7 @@ class Size:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ExpectedDetection:
-    """How a run is expected to end if a fault of usual size is present from the start."""
+    """The expected end of a run in which a fault of usual size is present from the start."""
 
     errors: tuple[int, ...] = ()  # errors that identify it
     calls: tuple[str, ...] = ()
@@ -80,9 +80,7 @@ class SpoiledWork:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FaultKind:
-    """A fault that a catalogue offers: its name, meaning, possible sizes, and how a program is expected to detect
-    it.
-    """
+    """A fault that a catalogue offers: its name, its meaning, its possible sizes and its expected detection."""
 
     name: str
     meaning: str  # a sentence: what is broken, and what the program gets instead
@@ -155,7 +153,7 @@ class FaultKind:
 
 
 class Catalogue:
-    """The faults of a task, in the order in which they are listed."""
+    """The faults of a task, in the order in which every list shows them."""
 
     def __init__(self, *kinds: FaultKind, matrix: Sequence[str] = ()) -> None:
         """`matrix` names the faults with which a program is tested by default; if `matrix` is empty, all faults are
@@ -167,7 +165,7 @@ class Catalogue:
         assert {*self.matrix} <= self.kinds.keys(), "the matrix names a fault that does not exist"
 
     def kind(self, name: str) -> FaultKind:
-        """Return the kind of fault called `name`. Raises NoSuchName if there is no such kind."""
+        """Return the kind of fault called `name`. Raises NoSuchName if no kind has this name."""
         if name in self.kinds:
             return self.kinds[name]
         inside = [known for known in self.kinds if known.startswith(f"{name}.")]
@@ -187,7 +185,7 @@ class Catalogue:
         return found or (self.kind(name),)
 
     def check(self, faults: Sequence[Fault]) -> None:
-        """Raise BadArgument unless all these faults can occur in one run."""
+        """Raise BadArgument unless all of `faults` can occur in one run."""
         for fault in faults:
             self.kind(fault.name).check(fault)
         once(fault.name for fault in faults)
@@ -202,8 +200,8 @@ class Catalogue:
 
 
 def _begun(fault: Fault) -> str:
-    """Return the beginning of a fault in the form in which users type it, such as `@30s`. The text is empty if the
-    fault is present from the start.
+    """Return the time or stage at which a fault begins, in the form in which users type it, such as `@30s`. The text
+    is empty if the fault is present from the start.
     """
     if fault.after is not None:
         return f"@{fault.after:g}s"

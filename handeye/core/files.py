@@ -107,7 +107,7 @@ def settle(file: int) -> None:
 
 
 def check_place(path: Path, kind: Kind, *, overwrite: bool = True) -> None:
-    """Check that a file of this kind can be written at `path` without replacing a file of another kind.
+    """Check that a file of the kind `kind` can be written at `path` without replacing a file of another kind.
 
     Raises:
         CannotWrite: the file cannot be written at `path`.

@@ -1,4 +1,4 @@
-"""Writes folders completely or not at all, and never replaces a folder of another kind."""
+"""Writes folders completely or not at all. A folder can be replaced only by a folder of the same kind."""
 
 import os
 import shutil
@@ -23,8 +23,8 @@ class FolderKind:
 
 
 def check_folder(path: Path, kind: FolderKind, *, overwrite: bool) -> None:
-    """Check that a folder of this kind can be written at `path`. Raises CannotWrite if the folder cannot be written,
-    or Taken if there is already a folder at `path` that must not be replaced.
+    """Check that a folder of the kind `kind` can be written at `path`. Raises CannotWrite if the folder cannot be
+    written, or Taken if there is already a folder at `path` that must not be replaced.
     """
     try:
         _refuse_others(path, kind, overwrite=overwrite)
@@ -54,7 +54,7 @@ def _refuse_others(path: Path, kind: FolderKind, *, overwrite: bool) -> None:
 
 
 def write_folder(path: Path, files: Mapping[str, bytes]) -> None:
-    """Replace a folder atomically by one with these files. If writing fails, the old folder stays."""
+    """Replace a folder atomically by a folder that contains `files`. If writing fails, the old folder stays."""
 
     def fill(new: Path) -> None:
         for name, data in files.items():

@@ -51,8 +51,8 @@ def joined(pieces: Iterable[str], between: str = "") -> Markup:
 
 
 def lines(rows: Iterable[str]) -> Markup:
-    """Build a text whose lines are not wrapped. In a narrow window, the user scrolls the text, so the text can be
-    selected with the Tab key.
+    """Build a text whose lines are not wrapped. In a narrow window, the user must scroll the text. To scroll by
+    keyboard, the user selects the text with the Tab key.
     """
     return element("pre", joined(rows, Markup("\n")), tabindex="0")
 
@@ -74,7 +74,9 @@ def contents(sections: Iterable[Markup]) -> Markup:
 
 
 def region(*children: Content, label: str, **attributes: str | None) -> Markup:
-    """Build a part of a section that scrolls by itself. The label is read by screen readers."""
+    """Build a part of a section. The part scrolls while the rest of the page stays in place. The label is read by
+    screen readers.
+    """
     return element("section", *children, **attributes, aria_label=label, tabindex="0")
 
 
@@ -89,7 +91,7 @@ def to_moment(seconds: float, *children: Content, **attributes: str | None) -> M
 
 
 def table(head: Iterable[Markup], rows: Iterable[Iterable[Markup]], *, label: str) -> Markup:
-    """Build a table. If the window is narrow, the table scrolls by itself, without the page."""
+    """Build a table. If the window is narrow, the table scrolls while the rest of the page stays in place."""
     titles = element("tr", *head)
     body = element("tbody", *(element("tr", *row) for row in rows))
     inside = element("table", element("thead", titles), body)

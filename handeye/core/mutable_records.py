@@ -30,8 +30,8 @@ class MutableRecord(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
 
 
 def copied(record: Kept) -> Kept:
-    """Take a snapshot of a record, independent of later changes. Raises TypeError if a value is mutable and not of
-    one of the types that the module names.
+    """Take a snapshot of a record, independent of later changes. Raises TypeError if a value is mutable, unless its
+    type is one of those that the module names.
     """
     twin = copy(record)
     values = astuple(record)
@@ -71,7 +71,9 @@ def _copied(value: Any) -> Any:
 
 @cache
 def _shared(kind: type) -> bool:
-    """Return True if values of this type never change: a frozen structure or dataclass, or one of _SHARED."""
+    """Return True if values of the type `kind` never change. Such types are frozen structures, frozen dataclasses, and
+    the types in _SHARED.
+    """
     if issubclass(kind, msgspec.Struct):
         return bool(kind.__struct_config__.frozen)
     frozen = is_dataclass(kind) and bool(getattr(kind, "__dataclass_params__").frozen)  # noqa: B009 - untyped

@@ -1,5 +1,5 @@
-"""Stores states on disk as compressed MessagePack with arrays. The first line of such a file gives its kind, version
-and digest.
+"""Stores states in files, as compressed MessagePack with arrays. The first line of a file gives the file's kind,
+version and digest.
 
 A file that is truncated, has a wrong bit, or would fill the memory is refused before its content is used.
 """

@@ -1,4 +1,4 @@
-"""The pages of the documentation, by topic, and their index."""
+"""Finds the page of a topic in the documentation, and reads the index of the pages."""
 
 import os
 import re
@@ -16,13 +16,13 @@ _LINK: Final = re.compile(r"\]\(([\w/.-]+\.md)(?:#[^)]*)?\)")
 
 
 def pages(folder: Path) -> dict[str, Path]:
-    """The pages of the documentation by topic, without the index."""
+    """The pages of the documentation, without the index. The keys are the topics."""
     files = (file for file in sorted(folder.rglob("*.md")) if file != folder / INDEX)
     return {(file.parent if file.name == INDEX else file).stem: file for file in files}
 
 
 def page_named(topic: str, folder: Path) -> Path:
-    """The page of a topic, which may be given with its folder; raises NoSuchName if there is no such page."""
+    """The page of a topic. The name of the topic may include its folder. Raises NoSuchName if the topic has no page."""
     from difflib import get_close_matches
 
     found = pages(folder)

@@ -59,8 +59,8 @@ def distinct_digits(numbers: Sequence[float], decimals: int) -> list[str]:
 
 
 def enough_digits(number: float, decimals: int, *, up: bool = False) -> str:
-    """Write a positive number with `decimals` digits after the point. A small number gets as many further digits as
-    two significant digits need: .0041 is written `0.0041` even if `decimals` is 2.
+    """Write a positive number with `decimals` digits after the point. A small number gets more digits, so that two of
+    them are significant: .0041 is written `0.0041` even if `decimals` is 2.
 
     If `up` is True, the number is rounded up, so that the written number is never too small.
     """

@@ -50,8 +50,8 @@ def _worst(off: Off, first: Rows, last: Rows) -> tuple[Rows, Array]:
 
 
 def off_values(values: Array, at: Array, allowed: Array) -> Off:
-    """Make a function that returns how far values deviate from linear interpolation, divided by the tolerance. Each
-    row has a value, a time in `at` and a tolerance in `allowed`; all three arrays have shape (n,).
+    """Make a function that returns the deviations of values from linear interpolation, as multiples of the tolerance.
+    Each row has a value, a time in `at` and a tolerance in `allowed`; all three arrays have shape (n,).
     """
 
     def off(first: Rows, row: Rows, last: Rows) -> Array:
@@ -63,8 +63,8 @@ def off_values(values: Array, at: Array, allowed: Array) -> Off:
 
 
 def off_poses(poses: Array, at: Array, *, place: float, turn: float) -> Off:
-    """Make a function that returns how far poses deviate from interpolation, divided by the tolerances `place` (m)
-    and `turn` (rad).
+    """Make a function that returns the deviations of poses from interpolation, as multiples of the tolerances `place`
+    (m) and `turn` (rad).
 
     `poses` has shape (n, 7): positions (m), then unit quaternions w, x, y, z, continuous in sign. `at` gives, for each
     row, the time or another quantity along which the poses are interpolated.

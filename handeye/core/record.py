@@ -1,4 +1,4 @@
-"""Immutable records, whose field types are checked when they are read from a file.
+"""Immutable records. When a record is read from a file, the types of its fields are checked.
 
 For state that changes, use a `MutableRecord` (`handeye/core/mutable_records.py`).
 """

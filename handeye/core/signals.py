@@ -29,8 +29,8 @@ class ToldToEnd(KeyboardInterrupt):
 
 @contextmanager
 def heard(handler: Handler) -> Iterator[None]:
-    """Pass the signals that end the program to a handler while the context is open. A signal that the process ignores,
-    as after `nohup`, stays ignored.
+    """While the context is open, let `handler` handle the signals that end the program. A signal that the process
+    ignores, as after `nohup`, stays ignored.
     """
     before = {}
 

@@ -1,4 +1,4 @@
-"""Source texts, and spans of characters in them."""
+"""Defines source texts, and spans of characters in these texts."""
 
 import re
 from bisect import bisect_right
@@ -68,7 +68,7 @@ class Source:
 
     @cached_property
     def begins(self) -> dict[str, int]:
-        """Offset, counted as in `find`, at which each text begins, by key of the text."""
+        """The offset at which each text begins, counted as in `find`. Texts are named by their keys."""
         return {text.key: begin for text, begin in zip(self.texts, self._begins, strict=True)}
 
     @cached_property
@@ -95,7 +95,9 @@ class Source:
         return offset - self.text.rfind("\n", 0, offset) - 1
 
     def span(self, key: str, line: int, columns: tuple[int, int]) -> Span:
-        """Return the span that covers `columns` of a line in the text with key `key`. Its offsets are as in `find`."""
+        """Return the span that covers `columns` of a line in the text with key `key`. The offsets of the span are
+        counted as in `find`.
+        """
         text = next(text for text in self.texts if text.key == key)
         start = self.begins[key] + text._starts[line - 1]
         return Span(start=start + columns[0], end=start + columns[1])

@@ -83,6 +83,6 @@ def split_value(text: str) -> tuple[float, str] | None:
 
 
 def unit_named(word: str) -> Unit | None:
-    """Find the unit called `word`, ignoring blanks and case. Returns None if there is no such unit."""
+    """Find the unit called `word`, ignoring blanks and case. Returns None if no unit has this name."""
     spelt = {name.replace(" ", "").casefold(): unit for name, unit in UNITS.items()}
     return spelt.get(word.replace(" ", "").casefold())

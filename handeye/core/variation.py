@@ -99,9 +99,7 @@ class Overrides(Record, frozen=True, kw_only=True):
 
 
 class WorldSpec(Record, frozen=True, kw_only=True):
-    """The complete specification of a world, which the record of a run contains. Equal specifications give equal
-    worlds.
-    """
+    """The complete specification of a world, as recorded with a run. Equal specifications give equal worlds."""
 
     seed: Seed
     level: Level = "nominal"
@@ -126,7 +124,7 @@ class WorldSpec(Record, frozen=True, kw_only=True):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class World:
-    """The values of a task's quantities, by name, in SI units."""
+    """The name and the value (SI) of each of a task's quantities."""
 
     spec: WorldSpec
     values: Mapping[str, float]
@@ -135,7 +133,9 @@ class World:
         return self.values[name]
 
     def numbered(self, group: str) -> tuple[float, ...]:
-        """Return the values (SI) of `group.1`, `group.2` and so on."""
+        """Return the values (SI) of the quantities `GROUP.1`, `GROUP.2` and so on, where GROUP is the value of
+        `group`.
+        """
         found: list[float] = []
         while (name := f"{group}.{len(found) + 1}") in self.values:
             found.append(self.values[name])
@@ -147,7 +147,7 @@ class World:
 
 
 class Variation:
-    """The quantities that vary between the worlds of a task, in the order in which they are listed."""
+    """The quantities that vary between the worlds of a task, in the order in which every list shows them."""
 
     def __init__(self, *quantities: Quantity) -> None:
         self.quantities = {quantity.name: quantity for quantity in quantities}
@@ -169,8 +169,8 @@ class Variation:
         return frozenset(".".join(part[:n]) for part in parts for n in range(1, len(part)))
 
     def present(self, values: Mapping[str, float]) -> dict[str, Quantity]:
-        """Return the quantities, by name, that exist in a world with these `values` (SI). Some quantities exist only
-        if another quantity, a choice, has a certain value.
+        """Return the quantities that exist in a world with the values `values` (SI). The keys are their names. Some
+        quantities exist only if another quantity, a choice, has a certain value.
         """
         return {name: q for name, q in self.quantities.items() if self._is_there(q, values)}
 
@@ -228,8 +228,8 @@ class Variation:
         return SPREADS[spec.level] * (scale[max(mine, key=len)] if mine else 1.0)
 
     def scalable(self, name: str) -> tuple[Quantity, ...]:
-        """Return the quantities to which a scale with this name applies. Raises BadArgument if there are no such
-        quantities.
+        """Return the quantities to which a scale called `name` applies. Raises BadArgument if the scale applies to no
+        quantity.
         """
         those = self.quantities.values() if name == UNSOURCED else self.select(name)
         found = tuple(q for q in those if q.distribution.is_error and (name != UNSOURCED or q.unsourced))
@@ -239,7 +239,7 @@ class Variation:
         return found
 
     def check(self, spec: WorldSpec) -> None:
-        """Raise BadArgument if these quantities do not allow the world of a specification."""
+        """Raise BadArgument if the task's quantities do not allow the world of a specification."""
         if spec.level not in SPREADS:
             raise NoSuchName(f"there is no level {spec.level!r}; the levels are {', '.join(SPREADS)}")
         if spec.drawing != DRAWING:

@@ -73,7 +73,7 @@ def _scale(variation: Variation, text: str) -> tuple[str, float]:
 
 def _setting(variation: Variation, text: str) -> tuple[str, dict[str, float]]:
     """Parse a setting. Returns the name of a quantity or group, and a value for each quantity with that name or in
-    that group. A quantity counts if at least one world has it.
+    that group. The quantities are those that at least one world has.
     """
     name, equals, value = (part.strip() for part in text.partition("="))
     if not equals:

@@ -27,7 +27,9 @@ class EncodedImage(PngImageFile):
         super().__init__(BytesIO(self._encoded))
 
     def save(self, fp: AnyPath | IO[bytes], format: str | None = None, **params: Any) -> None:
-        """Save the image. To a path that ends in .png, the image is not encoded again. Raises OSError."""
+        """Save the image. If the path ends in .png, the stored encoding is saved. Raises OSError if the file cannot be
+        written.
+        """
         path = Path(fp) if isinstance(fp, str | Path) else None
         if path is None or path.suffix != ".png" or format not in (None, "PNG"):
             super().save(fp, format, **params)

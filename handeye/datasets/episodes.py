@@ -44,7 +44,8 @@ class Episode(Record, frozen=True, kw_only=True):
 
 
 def runs_in(places: Iterable[Path]) -> tuple[Path, ...]:
-    """Return the folders of runs with a complete trace, among these folders and below them, in order of their names.
+    """Find the runs that have a complete trace. `places` are folders of runs, or folders above them. Returns the
+    folders of the runs, sorted by name.
 
     Raises:
         BadFile: a place does not exist, or holds no run.
@@ -61,8 +62,8 @@ def runs_in(places: Iterable[Path]) -> tuple[Path, ...]:
 
 
 def read_episode(run: Path, number: int) -> tuple[Trace, Episode]:
-    """Read a recorded run as the episode with this index. Raises InvalidInput if the run cannot be read or has not
-    ended.
+    """Read a recorded run as the episode with the index `number`. Raises InvalidInput if the run cannot be read or has
+    not ended.
     """
     if not (run / RESULT).is_file():
         raise BadFile(f"the run in {run} has not ended; `handeye resume {run}` continues it")

@@ -35,8 +35,8 @@ class Frames:
     """A run as K frames, of an arm with n joints. Joint positions are in rad, or m if prismatic.
 
     The positions of a frame are the positions of the joints, followed by the opening of the fingers (m). While the
-    brakes hold the arm for several servo periods, the sensors are not read. A frame in such a pause has the last
-    reading before the pause.
+    brakes hold the arm for several servo periods, the sensors are not read. A frame in this time has the last reading
+    before the brakes were set.
     """
 
     times: Array  # moments of the frames, s since the program began, shape (K,)

@@ -68,7 +68,8 @@ def write_dataset(
     overwrite: bool = False,
     progress: Callable[[int, int], None] = lambda *_: None,
 ) -> WrittenDataset:
-    """Write the runs in the given folders as a data set. The folder is written completely or not at all.
+    """Write the runs in the folders `places` as a data set. The folder `path` of the data set is written completely or
+    not at all.
 
     Args:
         places: folders of runs, or folders that contain such folders.
@@ -209,7 +210,7 @@ def _images(stored: str, height: int, width: int) -> dict[str, Any]:
 def lerobot_frames(
     frames: Frames, trace: Trace, episode: Episode, *, pictures: bool, view: str | None
 ) -> Iterator[dict[str, Any]]:
-    """Yield the frames of a run by feature."""
+    """Yield the frames of a run. Each frame is a dictionary whose keys are the names of the features."""
     shots = _shots(trace) if pictures else []
     views = repeat(None, len(frames)) if view is None else rendered_view(trace, view, frames.times)
     for k, rendered in zip(range(len(frames)), views, strict=True):
@@ -238,7 +239,9 @@ def lerobot_frames(
 
 
 def _shots(trace: Trace) -> "list[EncodedImage]":
-    """Return the television pictures of a run as images. The last one is black, for NO_PICTURE, -1."""
+    """Return the television pictures of a run as images. The last image is black: it is the image of a frame without a
+    picture, whose index is NO_PICTURE (-1).
+    """
     from handeye.datasets.encoded_image import EncodedImage
 
     black = np.zeros((ROWS, WIDTH, 3), np.uint8)

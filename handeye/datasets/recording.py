@@ -80,7 +80,7 @@ def record_all(
     jobs: int,
     progress: Callable[[int, int], None] = lambda *_: None,
 ) -> dict[EpisodeOutcome, int]:
-    """Record the missing runs in several processes. Returns, for each outcome, the number of runs that ended with it.
+    """Record the missing runs in several processes. Returns the number of runs for each outcome.
 
     Raises:
         InvalidInput: a run cannot be executed or recorded.

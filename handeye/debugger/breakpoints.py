@@ -22,8 +22,8 @@ _ERROR: Final = re.compile(r"error\s*:\s*(?P<any>.*)|error\s+(?P<number>\d+)", r
 
 
 def breakpoint(text: str, listing: Listing) -> AnyStop:
-    """Return the breakpoint that a text names. Raises InvalidInput if the program has no such place, or if the text
-    names an error that no step can raise.
+    """Return the breakpoint that a text names. Raises InvalidInput if the place that the text names does not exist, or
+    if the text names an error that no step can raise.
 
     The text names an error (`error:23`), a label, or a stage (by its name or a part of the name). A line of the
     source, such as `12` or `pins.al:3`, means the first step on the line or after it. An instruction word means every
@@ -53,14 +53,14 @@ def breakpoint(text: str, listing: Listing) -> AnyStop:
 
 def stage_number(text: str, listing: Listing) -> int:
     """Return the index of a stage. The user gives the stage's number (counted from 1), its name, or a part of the
-    name that no other stage's name contains. Raises InvalidInput if there is no such stage.
+    name that no other stage's name contains. Raises InvalidInput if `text` does not name exactly one stage.
     """
     return stage_index(text, listing.stages)
 
 
 def step_number(text: str, listing: Listing) -> int:
     """Return the index of a step. The user gives the step's number in the plan, or a label that no other step has.
-    Raises InvalidInput if there is no such step.
+    Raises InvalidInput if `text` does not name exactly one step.
     """
     text, steps = text.strip(), listing.steps
     if _NUMBER.fullmatch(text):

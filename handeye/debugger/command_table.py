@@ -18,8 +18,8 @@ StepperCommand = Command[Callable[[DebugSession, str], CommandResult]]
 
 
 def find(line: str) -> tuple[StepperCommand, str]:
-    """Return the command in a line, and its operand. Raises InvalidInput if there is no such command, or if the
-    operand is not allowed.
+    """Return the command in a line, and its operand. Raises InvalidInput if the line does not begin with a command, or
+    if the operand is not allowed.
     """
     word, _, rest = line.strip().partition(" ")
     name, _, more = _SHORT.get(word.casefold(), word.casefold()).partition(" ")

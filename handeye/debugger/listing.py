@@ -141,7 +141,7 @@ def _stage(number: int, name: str, steps: list[ListedStep], own: set[int]) -> Li
 
 
 def lines_of(program: Listing, file: str) -> Mapping[int, str]:
-    """Return the lines of a required file, or of the script itself, by number."""
+    """Return the lines of a required file or, if `file` is empty, of the script. The keys are the line numbers."""
     if program.numbered and not file:
         return program.numbered
     text = program.required[file] if file else program.source
@@ -150,8 +150,9 @@ def lines_of(program: Listing, file: str) -> Mapping[int, str]:
 
 
 def named_place(text: str, program: Listing) -> Place | None:
-    """Return the place that `12` or `pins.al:12` names, or None if the text has another form. Raises
-    InvalidInput if there is no such file."""
+    """Return the place that `12` or `pins.al:12` names, or None if the text has another form. Raises InvalidInput if
+    the program has no file with the name in the text.
+    """
     given = _PLACE.fullmatch(text.strip())
     if given is None:
         return None

@@ -1,5 +1,5 @@
-"""Shows a run at the terminal while it goes on: limits its pace, prints each step when it begins, and reads lines that
-the user types during the run.
+"""Shows a run at the terminal while the run goes on. This module limits the pace of the run, prints each step when it
+begins, and reads the lines that the user types.
 """
 
 import re
@@ -28,7 +28,9 @@ _LATE_S: Final = 0.1  # a run that is later than this (after a picture, for exam
 
 @dataclass(slots=True, eq=False)
 class Pace(Observer):
-    """Limits the pace of a run to `factor` times real time by waiting. Waiting does not change what the run does."""
+    """Limits the pace of a run: waits whenever the run would be faster than `factor` times real time. Waiting does not
+    change what the run does.
+    """
 
     factor: float | None = None  # simulated seconds per second; None for as fast as possible
     clock: Callable[[], float] = time.monotonic

@@ -38,9 +38,9 @@ class DebugSession:
     ) -> None:
         """Take control of a run. The run pauses at breakpoints and also at `stops`.
 
-        `kept` finds the newest checkpoint on disk that was made after at most a given number of steps. `keep` writes
-        a checkpoint, if the run stores checkpoints. `pictures` is the folder to which the last picture is
-        written when the user asks for it.
+        `kept(n)` finds the newest checkpoint on disk in which at most n steps are done. `keep` writes a checkpoint, if
+        the run stores checkpoints. `pictures` is the folder to which the last picture is written when the user asks
+        for it.
         """
         self.runner = runner
         self.stops = stops
@@ -70,8 +70,9 @@ class DebugSession:
     # -- breaks ---------------------------------------------------------------------------------------
 
     def add_break(self, text: str) -> Break:
-        """Set a breakpoint. A breakpoint that is already set keeps its number. Raises InvalidInput if there is
-        no such place."""
+        """Set a breakpoint. A breakpoint that is already set keeps its number. Raises InvalidInput if the place that
+        `text` names does not exist.
+        """
         stop = breakpoint(text, self.program)
         number = next((number for number, there in self.breaks.items() if there == stop), None)
         if number is None:
@@ -82,7 +83,7 @@ class DebugSession:
     # -- going ----------------------------------------------------------------------------------------
 
     def go(self, stops: Sequence[AnyStop] = (), steps: int | None = None) -> Pause:
-        """Continue until the next of these stops or breakpoints, or for `steps` steps.
+        """Continue until the next breakpoint or the next of `stops`, or for `steps` steps.
 
         A step that is interrupted by the panic button or a failure is rolled back. Raises InvalidInput if the
         run cannot continue.
@@ -94,7 +95,7 @@ class DebugSession:
 
     def have_undone(self, left: int, *, halts: bool = False) -> Pause:
         """Let the arm undo steps until N executed steps remain, where N is `left`. If `halts` is True, the run then
-        ends. Raises InvalidInput if the arm cannot undo these steps.
+        ends. Raises InvalidInput if the arm cannot undo the steps.
         """
         if self.runner.trouble is not None:
             raise Refused(self.at_its_end() or "")
@@ -123,7 +124,7 @@ class DebugSession:
 
     @contextmanager
     def _attended(self, going: Literal["on", "back"], *observers: Observer) -> Iterator[None]:
-        """Within this context, the run is in progress with these observers."""
+        """Within this context, the run is in progress, and `observers` watch it."""
         self.going = going
         self.runner.observers += observers
         try:
@@ -152,8 +153,8 @@ class DebugSession:
         return "the program has ended: `back` goes back from here, `quit` leaves"
 
     def back_to(self, position: int) -> None:
-        """Go back to the state with `position` steps done. Raises Refused if no such state is stored, or if the
-        panic button is pressed.
+        """Go back to the state with `position` steps done. Raises Refused if this state is not stored, or if the panic
+        button is pressed.
         """
         try:
             with self._attended("back", self.input):
@@ -174,8 +175,8 @@ class DebugSession:
         return first
 
     def stage_began(self) -> int | None:
-        """Return the number of steps that were done when the present stage began or, between two stages, when the
-        previous stage began. None before the first stage.
+        """Return the number of steps that were done when the last stage began: the present stage or, between two
+        stages, the previous one. Returns None before the first stage.
         """
         return next(reversed(beginnings(self.runner).values()), None)
 

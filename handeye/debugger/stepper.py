@@ -40,8 +40,8 @@ class Stepper:
             self.session.add_break(text)
         self.repeated: str | None = None  # command that an empty line on a terminal repeats
         self.refused = False
-        """True if a command was refused. Commands after the end of the run do not count, because the user could not
-        foresee the end.
+        """True if a command was refused. A command that was refused only because the run had ended does not count: the
+        user could not foresee the end.
         """
 
     @property

@@ -34,8 +34,8 @@ def show(runner: Runner, what: str = "", pictures: Path | None = None) -> RunVie
 
 
 def task_views(runner: Runner) -> tuple[TaskView, ...]:
-    """Return the place in the program that each task has reached. Returns no views if the tasks have no names, as in a
-    system with one task.
+    """Return, for each task, the place that it has reached in the program. Returns no views if the tasks have no
+    names, as in a system with one task.
     """
     steps = runner.listing.steps
     return tuple(

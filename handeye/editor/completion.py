@@ -26,7 +26,7 @@ class Proposal:
 
 
 def completions(document: Document, offset: int) -> tuple[Span, list[Proposal]]:
-    """Return proposals for an offset, and the span of text that a proposal would replace."""
+    """Return the words that are proposed at an offset, and the span of text that such a word would replace."""
     number, column = document.source.position(offset)
     start = offset - column + 1
     before = document.source.line(number)[: column - 1]

@@ -20,7 +20,9 @@ from handeye.program.taught import Taught
 
 @dataclass(frozen=True, kw_only=True)
 class Document:
-    """A script. An offset counts characters of the script's text. All results are computed when they are needed."""
+    """A script. An offset is the number of characters from the start of the script's text. All results are computed
+    when they are needed.
+    """
 
     source: Source
     taught: Taught = field(default_factory=Taught)
@@ -71,7 +73,7 @@ class Document:
 
     @cached_property
     def compiled(self) -> tuple[Program | None, list[Diagnostic]]:
-        """Two values: the program, or None if there are errors; and the diagnostics."""
+        """The program and the diagnostics. The program is None if the script has errors."""
         return compile_text(self.whole, self.taught)
 
     @cached_property

@@ -34,7 +34,7 @@ _MAX_FILES = 2  # of the files that an example requires: at most this many are s
 
 
 def explanation(word: str) -> str:
-    """Return the explanation of a code, error number or instruction. Raises NoSuchName if there is no such word; its
+    """Return the explanation of a code, error number or instruction. Raises NoSuchName if the word is unknown; the
     message suggests the nearest name.
     """
     if word in CODES:
@@ -279,7 +279,7 @@ ACTIONS: Final = "\n".join(
 
 @cache
 def raised_by() -> dict[int, tuple[str, ...]]:
-    """Return the instructions that can raise each error, by error number."""
+    """Return, for each error number, the instructions that can raise this error."""
     program, _ = compile_text(Source(name="actions.al", text=ACTIONS), SAMPLE)
     assert program is not None
     raising = {(number, step.word) for step in program.steps for number in step.operation.raises}

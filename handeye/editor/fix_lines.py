@@ -98,17 +98,16 @@ def _behind_motion(document: Document, number: int) -> int | None:
 
 
 def drop_test(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
-    """Yield a fix that removes a SKIPE of an impossible error, because such a SKIPE never skips. A SKIPN of an
-    impossible error always skips. For such a SKIPN there is no fix, because we do not know what the user intended.
+    """Yield a fix that removes a SKIPE if the error that it tests for cannot occur; this SKIPE never skips. A SKIPN
+    that tests for an impossible error always skips. It gets no fix, because we do not know what the user intended.
     """
     if word_of(line_of(document, diagnostic)) == "SKIPE":
         yield from remove_line(document, diagnostic)
 
 
 def close_up(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
-    """Yield a fix for a macro that ends with a modifier, if the motion of this modifier follows after blank lines. The
-    fix removes the blank lines, so that the motion belongs to the macro. There is no fix if the macro would then have
-    no end.
+    """Yield a fix for a macro in which blank lines separate a modifier from its motion. The fix removes the blank
+    lines, so that the motion belongs to the macro. There is no fix if the macro would then have no end.
     """
     behind = document.line_of(diagnostic.secondary[0].span.start)
     body = list(takewhile(lambda line: not line.is_blank, document.lines[behind.number :]))

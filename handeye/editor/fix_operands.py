@@ -66,8 +66,8 @@ def end_macro(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
 
 
 def remove_parameter(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
-    """Yield a fix that removes a parameter, and its operands in all calls. There is no fix if commas separate the
-    operands.
+    """Yield a fix that removes a parameter of a macro, and the parameter's operand in each call of the macro. There is
+    no fix if commas separate the operands.
     """
     name = document.name_at(diagnostic.primary.span.start)
     macro = None if name is None else document.macros.get(name.scope)

@@ -12,7 +12,7 @@ from handeye.editor.fix import Fix, replace
 
 
 def fixes(document: Document, diagnostic: Diagnostic) -> list[Fix]:
-    """Return the fixes for a diagnostic of the document; empty if there are none."""
+    """Return the fixes for a diagnostic of the document. The list is empty if there are none."""
     if any(label.span.end > len(document.text) for label in (diagnostic.primary, *diagnostic.secondary)):
         return []  # part of the diagnostic is in a required file
     cure = _CURES.get(diagnostic.code)

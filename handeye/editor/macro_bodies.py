@@ -24,7 +24,7 @@ class MacroBody:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Use:
-    """An operand of an instruction whose value comes from an operand of a macro call."""
+    """An instruction's operand that gets its value from an operand of a macro call."""
 
     definition: Instruction
     operand: Operand
@@ -45,7 +45,7 @@ def macros_of(text: str) -> dict[str, MacroBody]:
 
 
 def ends(line: Line) -> bool:
-    """Return True if a line ends a macro because it is blank or the head of another macro."""
+    """Return True if a line ends a macro. A macro ends at a blank line, or at the head of another macro."""
     return line.is_blank or any(token.text.upper() == "DEFINE" for token in line.split()[1][:1])
 
 
@@ -58,8 +58,9 @@ def called(line: Line, macros: Macros) -> Instruction | None:
 
 
 def uses(macros: Macros, macro: str, parameter: str, seen: frozenset[str] = frozenset()) -> Iterator[Use]:
-    """Yield the operands of instructions that take their values from a parameter of a macro, directly or
-    through nested calls."""
+    """Yield each instruction's operand that gets its value from a parameter of a macro, directly or through nested
+    calls.
+    """
     if macro in seen or macro not in macros:
         return
     for line in macros[macro].lines:

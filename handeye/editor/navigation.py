@@ -35,8 +35,8 @@ class Edit(Place):
 
 
 def definition(document: Document, offset: int) -> list[Place]:
-    """Return the definitions of the name at an offset. A difference is defined by each of its SAVEs. The definition of
-    a required file is the start of that file.
+    """Return the definitions of the name at an offset. If the name is that of a difference, each SAVE of this
+    difference is a definition. The definition of a required file is the start of that file.
     """
     for file in required_by(document.text):
         key = key_of(file.text, own_key(document.source))
@@ -119,7 +119,7 @@ FIRST = "program"  # the stage before the first STAGE
 
 @dataclass(slots=True, kw_only=True)
 class Symbol:
-    """A named range of the text. `kind` is `stage` or the kind of a name; `at` is the span of the name."""
+    """A named range of the text. `kind` is `stage`, or else the kind of the name. `at` is the span of the name."""
 
     name: str
     kind: str
@@ -147,13 +147,13 @@ def outline(document: Document) -> list[Symbol]:
 
 
 def _line(document: Document, at: Span) -> Span:
-    """Return the span of a name's line."""
+    """Return the span of the line in which a name begins, extended to the end of the name if necessary."""
     line = document.line_of(at.start)
     return Span(start=line.start, end=max(line.end, at.end))
 
 
 def _macro(document: Document, name: Occurrence) -> Symbol:
-    """Return a macro, from its head to the blank line that ends it."""
+    """Return the symbol of a macro. Its range is from the macro's head to the blank line that ends the macro."""
     head = _line(document, name.span)
     blank = re.compile(r"\n[ \t]*(?=\r?\n|\Z)").search(document.text, head.end)
     end = len(document.text) if blank is None else blank.start()

@@ -17,7 +17,7 @@ SEPARATOR = ","
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class OperandToken:
-    """A token and its operand, which is None for a surplus token. `component` is the token's index in a vector,
+    """A token and its operand. The operand is None for a surplus token. `component` is the token's index in a vector,
     counted from 0."""
 
     token: Token

@@ -57,14 +57,14 @@ class OneLine(logging.Formatter):
 
 
 def log_in_lines() -> None:
-    """Send the log of the libraries to standard error, one line per record."""
+    """Send the log records of the server's libraries to standard error, one line per record."""
     lines = logging.StreamHandler()
     lines.setFormatter(OneLine())
     logging.basicConfig(handlers=[lines], level=logging.WARNING)
 
 
 async def end_with(process: int) -> None:
-    """End the server when a process has ended, even if another process keeps the server's input open."""
+    """End the server when the editor's process has ended, even if another process keeps the server's input open."""
     while is_running(process):
         await asyncio.sleep(PAUSE_S)
     os._exit(1)  # the client cannot send the `exit` that the protocol requires

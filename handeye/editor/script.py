@@ -61,11 +61,11 @@ class EditedScript:
         return self.document.compiled[1]
 
     def offset(self, position: lsp.Position) -> int:
-        """Return the offset of a protocol position."""
+        """Return the offset of a position that is given in the form of the language server protocol."""
         return wire.offset(self.document.source, position, self.units)
 
     def range(self, span: Span) -> lsp.Range:
-        """Return the protocol range of a span of the script."""
+        """Return a span of the script as a range of the language server protocol."""
         return wire.range_(self.document.source, span, self.units)
 
     def published(self, found: Diagnostic) -> lsp.Diagnostic:
@@ -82,13 +82,15 @@ class EditedScript:
         return wire.diagnostic(found, self.range(at), [(place, ""), *related], f"{where}: ")
 
     def place(self, span: Span) -> lsp.Location:
-        """Return the protocol location of a span."""
+        """Return a span as a location of the language server protocol."""
         text, start = self.document.whole.find(span.start)
         local = Span(start=start, end=start + span.end - span.start)
         return lsp.Location(uri=self._uri(text), range=wire.range_(text, local, self.units))
 
     def location(self, found: Place) -> lsp.Location:
-        """Return the protocol location of a place in the script, the taught file or a required file."""
+        """Return a place in the script, the taught file or a required file as a location of the language server
+        protocol.
+        """
         if found.taught:
             return lsp.Location(uri=self.taught_uri, range=wire.range_(self._taught, found.span, self.units))
         text = next(text for text in self.document.whole.texts if text.key == found.file)

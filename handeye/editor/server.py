@@ -30,8 +30,9 @@ PAUSE_S: Final = 0.3
 
 
 class ArmServer(LanguageServer):
-    """The language server. For each script, it stores the planner's diagnostics and the text for which they
-    were computed."""
+    """The language server. For each script, it stores the planner's last diagnostics, and the text of the script from
+    which they were computed.
+    """
 
     def __init__(self) -> None:
         super().__init__("handeye", HANDEYE, protocol_cls=Protocol)
@@ -289,10 +290,11 @@ def _code_actions(server: ArmServer, params: lsp.CodeActionParams) -> list[lsp.C
 
 
 def _lenses(script: EditedScript, _: lsp.CodeLensParams) -> list[lsp.CodeLens]:
-    """Return the commands that are shown above each stage of an error-free script: run the stage, run the program from
-    the stage on, or step through the stage.
+    """Return the commands that are shown above each stage of an error-free script. One command runs the stage, one
+    runs the program from the stage on, and one steps through the stage.
 
-    The arguments of a command are the file, which the editor saves first, and the words after `handeye`.
+    A command has two arguments: the file, which the editor saves first, and the words that follow `handeye` on the
+    command line.
     """
     program = script.document.compiled[0]
     if program is None or script.path is None or script.problem is not None:

@@ -17,14 +17,15 @@ _UNNECESSARY: Final = {
 
 
 def position(source: Source, offset: int, units: Units) -> lsp.Position:
-    """Return the protocol position of an offset."""
+    """Return an offset as a position of the language server protocol."""
     line, column = source.position(offset)
     return lsp.Position(line=line - 1, character=units(source.text[offset - column + 1 : offset]))
 
 
 def offset(source: Source, at: lsp.Position, units: Units) -> int:
-    """Return the offset of a protocol position. A position beyond the end of its line or of the text is moved
-    to that end."""
+    """Return the offset of a position of the language server protocol. A position beyond the end of its line is moved
+    to the end of the line, and a position beyond the text to the end of the text.
+    """
     lines = source.text.split("\n")
     if at.line >= len(lines):
         return len(source.text)
@@ -38,7 +39,7 @@ def offset(source: Source, at: lsp.Position, units: Units) -> int:
 
 
 def range_(source: Source, span: Span, units: Units) -> lsp.Range:
-    """Return the protocol range of a span."""
+    """Return a span as a range of the language server protocol."""
     return lsp.Range(start=position(source, span.start, units), end=position(source, span.end, units))
 
 

@@ -1,4 +1,4 @@
-"""Carries out the commands of an action, for one servo period, through the devices of an arm's cell."""
+"""Makes the devices of an arm's cell execute the commands of an action for one servo period."""
 
 from collections.abc import Callable
 from typing import Final
@@ -17,7 +17,7 @@ _STANDS: Final = 6
 
 
 class ArmCommands:
-    """Drives arm, hand and screwdriver. `drive` is the servo with which the program worked until the episode began."""
+    """Drives arm, hand and screwdriver. `drive` is the servo that the task's program used before the episode began."""
 
     def __init__(self, drive: ArmDrive, kind: ActionKind) -> None:
         self.torque = np.zeros(len(drive.arm.joints))  # commanded in the last servo period, shape (n,)
@@ -26,8 +26,8 @@ class ArmCommands:
         drive.watch = self._noted
 
     def act(self, values: Values) -> None:
-        """Let a servo period pass in which the devices execute the commands `values`. Raises PhysicsFailed if the
-        simulation breaks down.
+        """Make the devices execute the commands `values` for one servo period. Raises PhysicsFailed if the simulation
+        breaks down.
         """
         state = self._drive.state
         state.gap, state.grip, state.tool = values["gap"], values["grip"], values["driver"]
@@ -62,7 +62,7 @@ class ArmCommands:
             drive.hold(1)  # the goal is out of reach, so the set-point stays
 
     def _pass(self, torque: Array | None) -> None:
-        """Let a servo period pass with torques (shape (n,)), or with the brakes set."""
+        """Apply torques (shape (n,)) for one servo period or, without torques, keep the brakes set."""
         self._drive.put_out(torque)
         self._drive.cell.clock.advance(self._drive.period)
         self.torque = np.zeros(len(self._effort)) if torque is None else torque

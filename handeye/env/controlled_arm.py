@@ -1,5 +1,5 @@
-"""The arm of a task with planned programs, commanded in servo periods. The hand, the screwdriver and the camera belong
-to the arm.
+"""The arm of a task with planned programs. The arm takes a command in each servo period. The hand, the screwdriver and
+the camera belong to the arm.
 """
 
 from collections.abc import Mapping

@@ -1,5 +1,5 @@
-"""What an environment needs of a machine: the machine takes commands for periods of equal length, and its sensors are
-read at the end of each period.
+"""The interface between an environment and a machine: the machine takes commands for periods of equal length, and its
+sensors are read at the end of each period.
 
 Every kind of machine implements this interface. The environment knows nothing else of a machine.
 """
@@ -27,13 +27,13 @@ class Controls(ABC):
 
     @abstractmethod
     def act(self, values: Values) -> None:
-        """Let a period pass in which the machine executes the commands `values`. Raises PhysicsFailed if the
+        """Make the machine execute the commands `values` for one period. Raises PhysicsFailed if the
         simulation breaks down, or MachineStopped if the machine has stopped for good.
         """
 
     @abstractmethod
     def stop(self) -> None:
-        """Bring the machine to rest, because the policy says that the work is done. Raises the same exceptions as
+        """Bring the machine to rest, after the policy has reported that the work is done. Raises the same exceptions as
         `act`.
         """
 
@@ -47,8 +47,8 @@ class Controls(ABC):
         return {}
 
     def facts(self, common: Mapping[str, Any]) -> Facts:
-        """Return what a policy may know. `common` are those arguments of `Facts` that do not depend on the kind of
-        machine.
+        """Return the facts that a policy is allowed to know. `common` are the fields of `Facts` that do not depend on
+        the kind of machine.
         """
         return Facts(**common)
 
@@ -80,7 +80,9 @@ class ControlledMachine(ABC):
         """Return the controls of an episode that begins in the present state of a run."""
 
     def check(self, action: ActionKind, *, pictures: bool) -> None:
-        """Raise InvalidInput if the machine does not take a kind of action, or has no camera for pictures."""
+        """Raise InvalidInput if the machine does not take actions of the kind `action`, or if pictures are wanted and
+        the machine has no camera.
+        """
         if action not in self.actions:
             raise NoSuchName(
                 f"{self.job.id} has no action {action!r}; its only action is {' or '.join(self.actions)}"
@@ -90,6 +92,6 @@ class ControlledMachine(ABC):
 
 
 def machine_of(job: Job) -> ControlledMachine:
-    """Return the machine of a job. Raises InvalidInput if its module cannot be imported."""
+    """Return the machine of a job. Raises InvalidInput if the machine's module cannot be imported."""
     found: ControlledMachine = loaded(job.machine)(job)
     return found

@@ -106,9 +106,10 @@ class AssemblyEnv(gymnasium.Env[Observation, Array]):
         Args:
             options: arguments of `handeye.World` for this episode only, such as `{"level": "high"}`.
 
-        Returns: the first observation, and a dictionary with these entries: the world; the stage of the program with
-            which the episode begins; what the machine has measured about itself, and what it was taught; and the seeds
-            of the worlds that were passed over, because the program does not reach this stage in them.
+        Returns: the first observation, and a dictionary. The dictionary names the world and the stage of the program
+            with which the episode begins. It contains what the machine measured or was taught before the episode. It
+            also lists the seeds of worlds that `reset` passed over, because the program does not reach the stage in
+            them.
 
         Raises:
             InvalidInput: the seed or an option cannot be used.
@@ -133,8 +134,8 @@ class AssemblyEnv(gymnasium.Env[Observation, Array]):
         return self._controls.seen(), self._beginning(runner, self._controls, passed_over)
 
     def step(self, action: Array) -> tuple[Observation, float, bool, bool, dict[str, Any]]:
-        """Let a control period pass with an action, or end the episode if the action says that the work is done.
-        Values outside of the action space are clipped.
+        """Make the machine execute an action for one control period or, if the action says that the work is done, end
+        the episode. Values outside of the action space are clipped.
 
         Raises:
             InvalidInput: the action has the wrong size or is not finite, or the episode has ended.
@@ -174,8 +175,8 @@ class AssemblyEnv(gymnasium.Env[Observation, Array]):
         return photographed(self._runner)
 
     def facts(self, seed: int = 0) -> Facts:
-        """Return what a policy may know at the beginning of the present episode. `seed` is the seed of the policy's
-        own random numbers.
+        """Return the facts that a policy is allowed to know at the beginning of the present episode. `seed` is the
+        seed of the policy's own random numbers.
 
         Raises:
             InvalidInput: no episode has begun.
@@ -215,7 +216,9 @@ class AssemblyEnv(gymnasium.Env[Observation, Array]):
         return World(seed, task=self.job.task, **settings).spec
 
     def _start(self, world: WorldSpec) -> Checkpoint | None:
-        """Return the start of an episode in a world; None if the program does not reach this start."""
+        """Return the state in which an episode starts in a world. Returns None if the program does not reach this
+        state.
+        """
         job = self.job
         stage = job.stages[int(random_numbers(world.seed, "env.start").integers(len(job.stages)))]
         start = self._starts.before(stage, world)

@@ -87,7 +87,7 @@ def play(env: AssemblyEnv, maker: PolicyMaker, seed: int) -> PlayedEpisode:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Evaluation:
-    """Lets a policy play an episode in the world of each case."""
+    """Lets a policy play one episode in each world of an evaluation."""
 
     policy: str  # name of an included policy, or MODULE:NAME
     environment: str  # its id
@@ -122,7 +122,7 @@ class Evaluation:
 
 
 class OutcomeShare(Record, frozen=True, kw_only=True):
-    """How many episodes ended with one of the outcomes."""
+    """How many episodes ended with the outcome `outcome`."""
 
     outcome: str
     episodes: int

@@ -1,7 +1,7 @@
 """The jobs of the environments: where each episode starts, and what the referee requires at its end.
 
-This module has the jobs of tasks with planned programs. Systems without planned programs name their jobs in their
-entries.
+This module has the jobs of tasks with planned programs. A system without planned programs names its jobs in its
+`Entry`.
 """
 
 from collections.abc import Mapping
@@ -30,7 +30,7 @@ ALWAYS: Final = (
 
 
 class Job(Record, frozen=True, kw_only=True):
-    """One job. An episode starts in the state in which the task's own program begins a stage of its work."""
+    """One job. An episode starts in the state in which the task's own program begins one of its stages."""
 
     id: str  # name of the environment
     meaning: str  # sentence that says what has to be done
@@ -58,8 +58,8 @@ class Job(Record, frozen=True, kw_only=True):
     """The faults that can be planted at the start. The seed determines which of them is planted, and its size."""
     sizes: tuple[float, float] = (0.0, 0.0)  # least and greatest size of a planted fault, in the fault's unit
     steps: Mapping[str, tuple[str, ...]] = msgspec.field(default_factory=dict)
-    """Steps of the work, in their order. A key is the name of a step. Its value contains the beginnings of the names
-    of all findings that must hold if the step is done.
+    """Steps of the work, in their order. Each key is the name of a step. Its value lists the findings that must hold
+    if the step is done, each given by the beginning of its name.
     """
 
     def requires(self, finding: str) -> bool:

@@ -25,7 +25,9 @@ class EpisodeOver(Exception):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Facts:
-    """What a policy may know before an episode. None of these facts comes from the true state of the cell."""
+    """The facts that a policy is allowed to know before an episode. None of these facts comes from the true state of
+    the cell.
+    """
 
     environment: str  # its id
     task: str
@@ -39,7 +41,7 @@ class Facts:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ArmFacts(Facts):
-    """What a policy may know of the arm of a task with planned programs."""
+    """The facts for a policy that moves the arm of a task with planned programs."""
 
     arm: ArmModel  # as its drawing describes it
     friction: Array  # Coulomb friction of each joint as the arm has measured it, shape (n,), N m or N
@@ -69,8 +71,8 @@ class Episode:
 
 
 class Policy:
-    """A policy for one episode: `MODULE:NAME` names the class of the policy, or a function that makes the policy from
-    the facts.
+    """A policy for one episode. To use a policy of your own, name it as `MODULE:NAME`. The name is that of the
+    policy's class, or of a function that makes the policy from the facts.
 
     A policy that answers each observation with an action has the method `act`. A policy that is written as a sequence
     of motions overrides `play` instead, and calls `episode.step` once in each period.
@@ -122,9 +124,9 @@ BUILT_IN: Final = {
 
 
 def policy_maker(name: str, environment: str) -> PolicyMaker:
-    """Return the maker of the policy called `name` for an environment. The name is that of a policy included with
-    handeye, or it is MODULE:NAME. Such a module is on Python's path or in the current folder. Raises InvalidInput if
-    there is no such policy.
+    """Return the class or function that makes the policy `name` in an environment. The name is that of a policy
+    included with handeye, or it is MODULE:NAME. The module must be on Python's path or in the current folder. Raises
+    InvalidInput if there is no policy with this name.
     """
     included = {**BUILT_IN, **job_named(environment).policies}
     if name in included:
@@ -153,7 +155,7 @@ def usual_action(maker: PolicyMaker) -> ActionKind:
 
 
 def check_policy(name: str, maker: PolicyMaker, environment: str, action: ActionKind) -> None:
-    """Raise BadArgument if a policy cannot use a kind of action, or is made for other environments."""
+    """Raise BadArgument if a policy cannot use actions of the kind `action`, or is made for other environments only."""
     able = getattr(maker, "actions", (action,))
     if action not in able:
         raise BadArgument(
@@ -171,7 +173,7 @@ def played(policy: Any, episode: Episode) -> None:
     the time limit: the policy has not reported that the work is done.
 
     Raises:
-        BadArgument: the object is not a policy. It may also raise whatever the policy raises.
+        BadArgument: the object is not a policy. An exception that the policy raises also reaches the caller.
     """
     act = getattr(policy, "act", policy)
     if not (hasattr(policy, "play") or callable(act)):

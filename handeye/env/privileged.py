@@ -1,5 +1,5 @@
-"""Shaped rewards. They are computed from the true state of the cell. A policy that is trained with shaped rewards
-therefore has had help that no sensor gives, and episodes with such rewards are marked as privileged.
+"""Shaped rewards. They are computed from the true state of the cell. Training with shaped rewards therefore gives a
+policy more information than the sensors do. Episodes with shaped rewards are marked as privileged.
 """
 
 from collections.abc import Callable

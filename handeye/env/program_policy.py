@@ -24,8 +24,8 @@ def _camera(facts: ArmFacts) -> CameraModel | None:
 
 
 class ProgramPolicy(Policy):
-    """Continues the program from the state in which the episode starts. The program keeps the memory that it has in
-    that state.
+    """Continues the program from the state in which the episode starts. The program remembers what it has measured
+    before this state.
 
     When the program has completed the stages of the job, the policy reports that the work is done. When the program
     calls the operator, the policy sets the brakes and waits for the time limit.

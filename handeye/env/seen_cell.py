@@ -122,7 +122,7 @@ class SeenClock(Clock):
             self._commands.step()
 
     def done(self) -> None:
-        """Say that the work is done. Always raises EpisodeOver, because this report ends the episode."""
+        """Report that the work is done. Always raises EpisodeOver, because this report ends the episode."""
         self._commands.step(done=True)
 
 

@@ -35,8 +35,8 @@ _LATE: Final = 1e6  # beyond any reading of the clock, s
 
 
 class Component(Record, frozen=True, kw_only=True):
-    """One component of an action. The value of the component, in `unit`, is its number in the Box of the action space,
-    times `scale`.
+    """One component of an action. In the Box of the action space, the component is a number without unit. This number
+    times `scale` is the component's value in `unit`.
     """
 
     name: str
@@ -97,7 +97,7 @@ def _hand(arm: ArmModel) -> tuple[Component, ...]:
 
 
 def action_space(parts: tuple[Component, ...]) -> spaces.Box:
-    """Return the Box of an action with these components."""
+    """Return the action space, a Box, for actions with these components."""
     low = np.array([-1.0 if part.signed else 0.0 for part in parts])
     return spaces.Box(low=low, high=np.ones(len(parts)), dtype=np.float64)
 
@@ -165,8 +165,8 @@ def observation(sensed: Sensed, torque: Array) -> Observation:
 
 
 def named(parts: tuple[Component, ...], action: Array) -> Mapping[str, float]:
-    """Return the values of an action by component, each in the unit of its component. Values outside of the Box are
-    clipped.
+    """Return the value of each component of an action, by the component's name and in the component's unit. Values
+    outside of the Box are clipped.
     """
     least = np.array([-1.0 if part.signed else 0.0 for part in parts])
     values = np.clip(action, least, 1.0)

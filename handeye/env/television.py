@@ -17,7 +17,7 @@ class Television:
     """Executes the camera commands in the policy's actions, and holds the last picture."""
 
     def __init__(self, drive: ArmDrive, camera: TvCamera, ready: float) -> None:
-        """Begin with a camera whose mechanism comes to rest at the time `ready` (s on the cell's clock)."""
+        """Begin an episode. The mechanism of the camera comes to rest at the time `ready` (s on the cell's clock)."""
         self._drive, self._camera, self._ready = drive, camera, ready
         self._due: float | None = None  # time at which the picture that was asked for is digitised
         self._held = False
@@ -25,7 +25,7 @@ class Television:
         self._taken: float | None = None
 
     def command(self, values: Mapping[str, float]) -> None:
-        """Carry out the camera commands of an action, before the action's servo period passes."""
+        """Carry out the camera commands of an action. Call this method before the action's servo period."""
         now = self._drive.cell.clock.now
         took = 0.0
         if values["set_lens"] > SWITCHED:
@@ -47,8 +47,8 @@ class Television:
             self._picture, self._taken, self._due = self._camera.digitise(hold_target=self._held), now, None
 
     def seen(self) -> Observation:
-        """Return the readings of the mount (pan and tilt, rad), the last picture, and its age (s), which is negative
-        before the first picture.
+        """Return the readings of the mount (pan and tilt, rad), the last picture, and the age of this picture (s). The
+        age is negative before the first picture.
         """
         age = NONE_YET if self._taken is None else self._drive.cell.clock.now - self._taken
         camera = np.array(self._camera.pots())

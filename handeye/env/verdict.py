@@ -1,4 +1,4 @@
-"""What the referee says about an episode, when it has ended."""
+"""The referee's judgement of an episode that has ended."""
 
 from collections.abc import Mapping
 from dataclasses import asdict
@@ -75,8 +75,8 @@ def verdict(job: Job, runner: Runner, *, done: bool, stopped: str = "") -> Verdi
 
 
 def _required(job: Job, runner: Runner) -> dict[str, Finding]:
-    """Return the findings that the job requires. A cell that cannot be measured has no findings, so the work in the
-    cell is never right.
+    """Return the findings that the job requires. If the cell cannot be measured, there are no findings, and the work
+    does not count as right.
     """
     try:
         every = findings_so_far(runner)

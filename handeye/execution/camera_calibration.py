@@ -1,8 +1,8 @@
 """Calibrates the camera to the arm: the arm carries its lamp through the view of the camera.
 
-The camera is calibrated once when it is set up, before any pump is made, so the times that were published in 1973 do
-not include the calibration. The position of the hand is measured by the sensors of the arm. The same arm grasps the
-parts later, so errors common to calibration and grasping cancel.
+The camera is calibrated once, when it is set up, before any pump is made. The times that were published in 1973
+therefore do not include the calibration. The position of the hand is measured by the sensors of the arm. The same arm
+grasps the parts later, so errors common to calibration and grasping cancel.
 """
 
 import math
@@ -47,9 +47,9 @@ def calibrate_camera(
 ) -> Calibration:
     """Show the lamp to the camera, and fit the camera model to the positions of the hand.
 
-    `state` holds the arm's measurements of itself, and `drawing` is the design of the camera. `viewed` is called
-    with the number of the view and the total number of views. Raises CalibrationFailed if the lamp is seen too few
-    times or the picture does not change, and Halted if the panic button is pressed.
+    `state` holds the arm's measurements of itself, and `drawing` is the design of the camera. `viewed` is called with
+    the number of the view and the total number of views. Raises CalibrationFailed if the lamp is seen too few times or
+    the picture does not change. Raises Halted if the panic button is pressed.
     """
     drive = ArmDrive(cell=cell, arm=arm, state=state, halt=halt, arithmetic=arithmetic)
     home = drive.state.q.copy()

@@ -1,7 +1,7 @@
 """Compliant straight motions, in which the measured force moves the set-point.
 
 This is admittance control: the speed of the set-point depends on the force. The position servo of every joint stays
-on. With slack joints, an error of the gravity model would make the hand drift.
+on. If joints were slack instead, an error of the gravity model would make the hand drift.
 """
 
 import math
@@ -53,8 +53,8 @@ class Course:
         return limited(_beyond(self.free * wrench[:3], self.friction[:3]) * k.gain, k.speed)
 
     def turned(self, turn: Array, wrench: Array, period: float) -> Array:
-        """Return the rotation vector of the hand (rad, shape (3,)) at the end of a servo period (s) that began
-        with `turn`.
+        """Return the rotation vector of the hand (rad, shape (3,)) at the end of a servo period (s). `turn` is the
+        rotation vector at the beginning of the period.
         """
         felt, k = wrench[3:], self.compliance
         missing = _beyond(self.spin * felt, self.friction[3:])

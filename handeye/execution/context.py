@@ -24,7 +24,9 @@ from handeye.vision.replaceable import BUILT_IN, VisionFunctions
 
 @dataclass(slots=True)
 class Stopwatch:
-    """Adds up the seconds, on a given clock, during which it runs. Without a clock, the sum stays at zero."""
+    """A stopwatch that uses a given clock. It adds up the seconds during which it runs. Without a clock, the sum stays
+    at zero.
+    """
 
     clock: Callable[[], float] = lambda: 0.0
     seconds: float = 0.0
@@ -77,7 +79,7 @@ class ExecutionContext:
 
     @property
     def felt_friction(self) -> Array:
-        """The wrenches that are sensed at the present configuration because of the measured friction of each joint:
+        """The wrenches that the measured friction of the joints causes the arm to sense at the present configuration:
         one column for each joint, shape (6, n). See `arm.friction`.
         """
         return felt_friction(self.arm, self.drive.state.q, self.drive.state.friction)
@@ -88,8 +90,8 @@ class ExecutionContext:
 
     @property
     def part_here(self) -> str:
-        """The part to which the goal of the last MOVE belongs; the hand should be at this part. Empty if the goal
-        belongs to no part.
+        """The name of the part to which the goal of the last MOVE belongs. The hand should be at this part. The name
+        is empty if the goal belongs to no part.
         """
         place = self.plan.program.positions.get(self.state.place)
         return "" if place is None or place.of is None else place.of

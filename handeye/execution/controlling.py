@@ -1,6 +1,6 @@
-"""Servo periods between two steps of the plan, in which a controller of the calling program commands the arm.
+"""Lets a controller, which the calling program supplies, command the arm between two steps of the plan.
 
-The controller knows the cell only by the readings of the devices, and acts only through the devices.
+The controller knows only the readings of the cell's devices, and acts only through these devices.
 """
 
 from collections.abc import Callable, Sequence
@@ -25,11 +25,12 @@ def repeated(periods: Sequence[CommandedPeriod]) -> Controller:
 
 
 def controlled(run: ExecutionContext, controller: Controller, most: int) -> tuple[CommandedPeriod, ...]:
-    """Let a controller command servo periods until the controller ends; `most` is the greatest number of periods. Then
+    """Let a controller command the arm until the controller ends, or until `most` servo periods have passed. Then
     brake until the arm stands still. Returns the commands.
 
     Earlier steps can no longer be undone: a reversal must begin where the last step ended, and the controller has
-    moved the arm away from there. From then on, the program assumes that an object may touch the hand.
+    moved the arm away from there. After the controller has ended, the program assumes that an object may touch the
+    hand.
     """
     drive, effort, commands = run.drive, constants(run.arm).effort, list[CommandedPeriod]()
     while len(commands) < most and (command := controller(drive.sensed)) is not None:

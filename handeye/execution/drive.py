@@ -1,4 +1,4 @@
-"""Drives a single arm: executes the motions of its servo loop, and lets time pass."""
+"""Drives a single arm: executes the arm's motions in a servo loop, and lets time pass."""
 
 from collections.abc import Callable
 from contextlib import closing
@@ -19,12 +19,10 @@ _STANDS: Final = 0.1
 
 @dataclass(slots=True, kw_only=True)
 class ArmDrive(ServoLoop):
-    """The servo loop of an arm that shares its clock with no other arm. In the working phase, only this class lets
-    time pass.
-    """
+    """The servo loop of an arm that has the clock to itself. In the working phase, only this class lets time pass."""
 
     def brake(self, seconds: float) -> None:
-        """Set the brakes and let time pass. The position of the arm at the end becomes the set-point."""
+        """Set the brakes and let time pass. The final position of the arm becomes the set-point."""
         self._pass(self.braking(seconds))
 
     def stop(self) -> None:
@@ -36,7 +34,7 @@ class ArmDrive(ServoLoop):
         self._pass(self.floating(seconds))
 
     def exert(self, torque: Array) -> None:
-        """Let a servo period pass with these joint torques, shape (n,). The position of the arm at the end becomes the
+        """Apply joint torques, shape (n,), for one servo period. The final position of the arm becomes the
         set-point.
         """
         self._pass(self.exerting(torque))

@@ -85,6 +85,8 @@ class Executor:
         found = before(run)
         run.emit(StepStarted(time=run.time, step=here, file=step.file, line=step.line, text=step.text))
         self.state.at = self._past(self._perform(step))
+        if self.state.at is None:
+            run.drive.stop()  # the program has ended; under its drives, the arm would still sway
         self.state.done.append(noted(run, found, step=here, enters=enters))
         motion, planned = run.plan.motions.get(here), None
         if motion is not None:
@@ -108,8 +110,9 @@ class Executor:
         self._leave()
 
     def answer(self, choice: Choice) -> None:
-        """Carry out what the operator chose after a call or after a reversal. If a reversal has stopped with an
-        error, `proceed` continues this reversal, and any other choice ends it.
+        """Carry out the operator's choice. The operator makes a choice after each call of the program, and after a
+        reversal. If a reversal has stopped with an error, `proceed` continues this reversal, and any other choice ends
+        it.
         """
         run, stage = self.run, self.state.stage
         assert stage is not None or choice == "proceed"
@@ -125,8 +128,8 @@ class Executor:
         self._leave("skipped" if choice == "skip" else "done")
 
     def undo(self, undoing: ReversalOrder) -> None:
-        """Order the reversal of executed steps, the last first, until `undoing.left` steps remain. Raises Refused
-        if there are no steps to reverse.
+        """Order the arm to reverse executed steps, beginning with the last one, until `undoing.left` steps remain.
+        Raises Refused if there are no steps to reverse.
         """
         if undoing.asked_by == "person":
             self.state.unwound.clear()
@@ -166,8 +169,8 @@ class Executor:
         return step.next
 
     def _past(self, number: int | None) -> int | None:
-        """Return `number`. If the step with this number belongs to the call of a macro that the run leaves out,
-        return the number of the first step after the call.
+        """Return `number`. If the run leaves out a macro, and the step with this number belongs to a call of the
+        macro, return the number of the first step after the call.
         """
         steps = self.run.plan.program.steps
         while number is not None and steps[number].called in self.run.without:

@@ -30,7 +30,9 @@ from handeye.program.world_model import rounded_place
 
 
 def test_error(run: ExecutionContext, operation: Test) -> bool:
-    """Test for an error of the last action and clear it. Returns True if that error was raised."""
+    """Test whether the last action raised a certain error, and clear this error. Returns True if the error was
+    raised.
+    """
     pending = run.state.pending
     occurred = pending is not None and pending.number == operation.number
     if TESTED.get(operation.number) in run.without:
@@ -125,7 +127,9 @@ def tool(run: ExecutionContext, operation: Tool) -> None:
 
 
 def nothing(_: ExecutionContext, __: Operation) -> None:
-    """Do nothing. The executor uses this for operations that only select the next step or call the operator."""
+    """Do nothing. The executor uses this function for operations that only select the next step or call the
+    operator.
+    """
 
 
 FLOW_ACTIONS: Final[dict[type[Operation], Action]] = {

@@ -2,10 +2,11 @@
 
 This is the textbook method: each joint moves slowly out and back over the same range at a constant rate. The friction
 torque changes sign between the motion out and the motion back, so friction is half the difference between the two
-drive torques. A second, quicker pass removes the part of friction that is proportional to the rate: the line through
-both passes gives the Coulomb friction at rate 0 (Armstrong-Helouvry, Dupont and Canudas de Wit, Automatica 30, 1994,
-on identification). All joints move at the same time, because the friction of a joint appears only in the torque of
-that joint. The mean of the two drive torques is the weight torque, whatever the friction.
+drive torques. One part of the friction is proportional to the rate. A second, quicker pass makes it possible to remove
+this part: a line through the results of both passes gives the Coulomb friction, which is the friction at rate 0. See
+the section on identification in Armstrong-Helouvry, Dupont and Canudas de Wit, Automatica 30, 1994. All joints move at
+the same time, because the friction of a joint appears only in the torque of that joint. The mean of the two drive
+torques is the weight torque, whatever the friction.
 """
 
 from collections.abc import Callable, Sequence
@@ -88,10 +89,10 @@ def measure_joints(
 
 
 def at_rest(slow: Array, quick: Array) -> Array:
-    """Compute the Coulomb friction from the friction in the slow pass and in the quick pass. All arrays have shape
-    (n,).
+    """Compute the Coulomb friction of each joint. `slow` and `quick` are the friction in the slow pass and in the
+    quick pass. All arrays have shape (n,).
 
-    A line through the two values of a joint gives the Coulomb friction, the friction at rate 0. In our model of
+    A line through a joint's two values gives its Coulomb friction, which is the friction at rate 0. In our model of
     friction, friction cannot fall as the rate rises. If the friction of a joint seems to fall, the function returns
     the mean of the two values, weighted by the durations of the passes.
     """
@@ -106,14 +107,14 @@ def _check_weighed(arm: ArmModel, links: Array) -> None:
     if abs(links[doubted] - 1) > PLAUSIBLE:
         joint = arm.joints[doubted].name
         raise FrictionUnknown(
-            f"the links could not be weighed: the measurement makes the link of the {joint} {links[doubted]:.2f} "
-            "times as heavy as in its drawing, so a drive does not give its commanded torque"
+            f"the links could not be weighed: according to the measurement, the link of the {joint} is "
+            f"{links[doubted]:.2f} times as heavy as in its drawing, so a drive does not give its commanded torque"
         )
 
 
 def _check_rubbing(arm: ArmModel, coulomb: Array) -> None:
-    """Raise FrictionUnknown if a joint needs far more torque than its stated friction. Joints without friction
-    data are not checked.
+    """Raise FrictionUnknown if the measured friction of a joint is far greater than its stated friction. Joints
+    without friction data are not checked.
     """
     stated = np.array(arm.compliance.friction)
     times = np.divide(coulomb, stated, out=np.zeros(len(stated)), where=stated > 0)
@@ -127,8 +128,8 @@ def _check_rubbing(arm: ArmModel, coulomb: Array) -> None:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _PassTorques:
-    """The part of the torques of a pass that the arm model does not explain. This part is separated into friction and
-    weight, each of shape (n,).
+    """The torques of a pass minus the torques that the arm model explains. This difference is separated into friction
+    and weight, each of shape (n,).
     """
 
     rubbing: Array  # opposing the motion
@@ -192,8 +193,8 @@ def _check_moved(arm: ArmModel, samples: Samples, periods: Sequence[ServoPeriod]
 
 
 def _unexplained(arm: ArmModel, periods: Sequence[ServoPeriod], period: float) -> Array:
-    """Return the mean torque of each joint, minus the torques of weight and inertia, shape (n,). The mean is taken
-    over the time after the first servo period.
+    """Subtract the torques of weight and inertia from the mean torque of each joint, and return the differences, shape
+    (n,). The mean is taken over the time after the first servo period.
     """
     before, *after = periods
     q = np.array([each.sensed.q for each in after])

@@ -63,8 +63,8 @@ def _to_gap(run: ExecutionContext, goal: float) -> None:
 
 
 def close(run: ExecutionContext, operation: Close) -> Fault | None:
-    """Close the fingers until both finger switches close, or until the gap is too small for any object. Then check
-    that the hand holds the expected object.
+    """Close the fingers until both finger switches show a touch, or until the gap is too small for any object. Then
+    check that the hand holds the expected object.
     """
     fault = _begin_to_close(run)
     if fault is not None:
@@ -199,8 +199,9 @@ def _unlike(run: ExecutionContext, least: float, maximum: float | None) -> GapUn
     """Compare the gap with the nominal thickness of the object that the hand should hold at this place. Returns None
     if the two agree, if the hand is empty, or if the object is unknown.
 
-    A gap outside the limits that the program gives is not reported the first time, because the hand may hold
-    another object, or hold the object askew. If the next grasp reads the same gap, the gap is reported.
+    The program gives limits for the gap. When the gap is outside these limits for the first time, the gap is not
+    reported here, because the hand may only hold the object askew. If the gap is the same at the next grasp, the gap
+    is reported.
     """
     state, gap = run.state, run.drive.sensed.gap
     name, thickness = _nominal(run)

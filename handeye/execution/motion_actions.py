@@ -94,8 +94,8 @@ def move(run: ExecutionContext, operation: Move) -> Fault | None:
 def _trajectory(
     run: ExecutionContext, operation: Move, via: list[Pose], X_WT: Pose
 ) -> Trajectory | Unreachable:
-    """Return the planned trajectory if all poses are as planned, and an adjusted trajectory if not. Returns the reason
-    if a pose is out of reach.
+    """Return the planned trajectory if the arm starts as planned and all poses are as planned. Return an adjusted
+    trajectory if not. If a pose is out of reach, return the reason why.
     """
     motion = run.planned
     knots = np.array(motion.knots)
@@ -112,8 +112,8 @@ def _trajectory(
 
 
 def change(run: ExecutionContext, operation: Change) -> Fault | None:
-    """Move straight from the present place. Guards on force or torque end the motion, and the hand presses if the
-    operation says so.
+    """Move straight from the present place. Guards on force or torque can end the motion. If the operation asks for
+    it, the hand presses during the motion.
     """
     start = run.drive.hand()[:3, 3]
     displacement = np.array(operation.displacement)
@@ -175,8 +175,8 @@ def turn(run: ExecutionContext, operation: Turn) -> Fault | None:
 
 
 def _report_faint(run: ExecutionContext, guards: Guards, along: Array) -> None:
-    """Report a guard that is hard to distinguish from friction, once for each statement. The motion begins in
-    direction `along`, shape (3,), in W.
+    """Report each guard whose limit is so low that friction could trip it. The guards of a statement are reported only
+    once. The motion begins in direction `along`, shape (3,), in W.
     """
     assert run.state.at is not None
     place = run.plan.program.steps[run.state.at].place
@@ -220,8 +220,8 @@ def _motor(run: ExecutionContext) -> CurrentSilent | CurrentUnlike | MotorSlow |
     """Compare the torque of the screwdriver's motor, measured by its current, with two known torques: the starting
     torque, and the torque of the clutch.
 
-    If the motor starts against a resistance, it takes more torque than usual. The motor never takes less torque than
-    usual, and never more than its clutch transmits.
+    A motor that starts against a resistance takes more torque than usual, but not more than its clutch transmits. No
+    sound motor takes less torque than usual.
     """
     drive, least = run.drive.state, STARTING_TORQUE - 4 * CURRENT_NOISE / math.sqrt(STARTING_PERIODS)
     if drive.current > STALLED_TORQUE + 5 * CURRENT_NOISE:
@@ -240,7 +240,7 @@ def _motor(run: ExecutionContext) -> CurrentSilent | CurrentUnlike | MotorSlow |
 
 def _fast(drive: DriveState) -> MotorFast | None:
     """Return the cause if the motor turns too fast; if not, return None. A motor that turns too fast takes longer than
-    usual to reach its speed, although it then runs without load.
+    usual to reach its speed. When it has reached its speed, it runs without load.
     """
     late, free = drive.starting[STARTING_PERIODS:], drive.lately[FAST_PERIODS:]
     if len(late) < FAST_PERIODS - STARTING_PERIODS or not free or median(free) > 2 * CURRENT_NOISE:
@@ -250,8 +250,8 @@ def _fast(drive: DriveState) -> MotorFast | None:
 
 
 def _turned_hard(run: ExecutionContext, guards: Guards) -> Fault | None:
-    """Return the error if a screw was too hard to turn before it reached the torque of its guard. The thread of such a
-    screw uses up torque that should clamp the parts.
+    """Return the error if a screw was too hard to turn before the torque reached the limit of the guard. The thread of
+    such a screw uses up torque that should clamp the parts.
     """
     asked = [each.torque for each in guards if isinstance(each, Torque)]
     running = run.drive.state.lately[: -round(WIND_UP / run.drive.period)]
@@ -289,7 +289,9 @@ def travel(run: ExecutionContext, operation: Travel) -> Fault | None:
 
 
 def height(run: ExecutionContext, operation: Height) -> Fault | None:
-    """Check how much higher the hand is after the last motion than it was at the SAVE of this name."""
+    """Compare the hand's height with its height at the SAVE that the operation names. Returns an error if the
+    difference is outside the limits of the operation.
+    """
     saved = run.state.heights.get(operation.name)
     if saved is None:
         return Fault(number=errors.WRONG_HEIGHT, cause=HeightUnknown(name=operation.name))

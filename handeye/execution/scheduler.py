@@ -1,8 +1,8 @@
 """Runs tasks together under one clock. Each task waits for a time or a condition, and the order of the tasks is
 deterministic.
 
-Time is counted exactly, in rational seconds or whole microseconds, so that periods of 10 ms and 1/60 s do not drift
-apart.
+Time is counted exactly, in rational seconds or whole microseconds. Rounding errors therefore do not accumulate when
+one task has a period of 10 ms and another has a period of 1/60 s.
 """
 
 from collections.abc import Callable, Generator, Sequence
@@ -52,8 +52,8 @@ class Deadlock(HandeyeError):
 class Agenda(MutableRecord, Generic[Time], kw_only=True):
     """The order and times at which tasks continue, as a record that a system can keep in its state.
 
-    The task that is due first continues. If several tasks are due at the same time, the first in `due` continues,
-    but no task continues twice before the others have continued.
+    The task with the earliest due time continues. If several tasks have the same due time, they continue in the order
+    of `due`, and no task continues twice before the others have continued.
     """
 
     now: Time
@@ -101,14 +101,14 @@ class Agenda(MutableRecord, Generic[Time], kw_only=True):
         return None
 
     def sleep(self, task: str, duration: Time) -> None:
-        """Make a task due again: `duration` after the time at which the task was last due. This applies even if the
+        """Make a task due again. The new time is `duration` after the time at which the task was last due, even if the
         task was executed late.
         """
         time, again = self.due[task]
         if duration < 0:
             raise BadArgument(f"{task} cannot wait for a negative time")
         if again == _MOST_AT_ONCE:
-            raise Deadlock({task: f"no time, {_MOST_AT_ONCE} times in succession"})
+            raise Deadlock({task: f"0 s, {_MOST_AT_ONCE} times in succession"})
         self.due[task] = (time + duration, 0) if duration else (time, again + 1)
 
     def wait(self, task: str, name: str) -> None:

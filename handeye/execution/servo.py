@@ -1,9 +1,9 @@
 """The servo of an arm. In each servo period, the servo commands torques and estimates the force on the hand.
 
-The servo uses only the device interfaces: positions come from the potentiometers, refined by the tachometers, and
-forces from the residual of the joint torques. The code that is executed in a servo period does not itself let time
-pass. After commanding all devices, this code yields to its caller, who lets time pass. When the caller resumes the
-code, the code reads the cell.
+The servo uses only the device interfaces. It measures positions with the potentiometers, and refines them with the
+tachometers. It computes forces from the residual of the joint torques. The code that is executed in a servo period
+does not itself let time pass. After commanding all devices, this code yields to its caller, who lets time pass. When
+the caller resumes the code, the code reads the cell.
 """
 
 from collections.abc import Callable, Generator
@@ -61,7 +61,7 @@ class Halted(Exception):
 
 @dataclass(slots=True, kw_only=True)
 class Servo:
-    """The servo of one arm, and the commands that it sends to the cell together with every torque."""
+    """The servo of one arm. In each servo period, the servo sends commands to all devices of the cell."""
 
     cell: Workcell
     arm: ArmModel
@@ -72,9 +72,9 @@ class Servo:
     arithmetic: Callable[[ArmModel], ArmArithmetic] = Formulas  # computes an arm at one configuration
     _chain: tuple[ArmModel, ArmArithmetic] | None = field(default=None, init=False)
     _unseen: Array | None = field(default=None, init=False)
-    """How far (rad, m) each joint moved in the last servo period, minus the motion that its rates show. The value is
-    None unless the gap has closed, which shows that an object has shifted in the fingers. Such a shift can move the
-    hand suddenly.
+    """How far (rad, m) each joint moved in the last servo period, minus the motion that its rates show. An object that
+    shifts in the fingers can move the hand so suddenly that the rates do not show this motion. The gap then becomes
+    smaller. The value is None if the gap has not become smaller.
     """
 
     @property
@@ -162,10 +162,11 @@ class Servo:
     ) -> Motion[Array]:
         """Run one servo period. At the beginning of the period, the arm should be at `q` and move with rates `qd`.
 
-        If `estimate` is True, the force on the hand is estimated at the end of the period: for `guards` or, if
-        `taring` is True, for the tare. `friction` are the torques of known friction, which are compensated, so that
-        friction is not sensed as force. The torques `dither` are added to those of the servo. Returns the torque
-        residual, shape (n,): the torques less those for weight, inertia and load. The residual includes friction.
+        If `estimate` is True, the force on the hand is estimated at the end of the period. The estimate is used for
+        the tare if `taring` is True, and for `guards` if not. `friction` are the torques of known friction, which are
+        compensated, so that friction is not sensed as force. The torques `dither` are added to those of the servo.
+        Returns the torque residual, shape (n,): the torques less those for weight, inertia and load. The residual
+        includes friction.
         """
         q_was, before = self.state.here, self.sensed
         load = here.J[2] * self.state.load
@@ -244,10 +245,11 @@ class Servo:
         return sensed
 
     def _jumped(self, tau: Array | None, before: Sensed, after: Sensed) -> Disagreement | None:
-        """Find a potentiometer whose reading jumped within a servo period. In this period, the drives gave the torques
-        `tau`, or the brakes were set if `tau` is None. A blow on the hand also changes readings suddenly. Such a blow
-        is recognised by the readings of the other joints, and is not taken for a jump. The blow of an object that
-        shifts in the fingers is not taken for a jump either, because the closing gap shows such a blow.
+        """Find a potentiometer whose reading jumped within a servo period. `tau` are the torques of the drives in this
+        period, or None if the brakes were set. A blow on the hand also changes readings suddenly. Such a blow is
+        recognised by the readings of the other joints, and is not taken for a jump. An object that shifts in the
+        fingers also gives a blow. This blow is not taken for a jump either, because it shows in the gap of the
+        fingers, which becomes smaller.
         """
         moved, work = after.q - before.q, self._work(before, after)
         self._unseen = moved - (before.qd + after.qd) * (self.period / 2) if work else None

@@ -85,7 +85,7 @@ CUT = Outcome(error=errors.WATCHDOG)
 
 @dataclass(slots=True, kw_only=True)
 class ServoLoop(Servo):
-    """The motions of one arm, and the checks that end them."""
+    """The motions of one arm, and the checks that can end a motion."""
 
     def _periods(self, seconds: float) -> int:
         """Return the number of servo periods in a time (s), at least one if the time is positive."""
@@ -94,7 +94,7 @@ class ServoLoop(Servo):
     # -- motions, a servo period at a time -----------------------------------------------------------
 
     def braking(self, seconds: float) -> Motion[None]:
-        """Set the brakes. The position of the arm at the end becomes the set-point."""
+        """Set the brakes. The final position of the arm becomes the set-point."""
         left = self._periods(seconds)
         while left:
             periods = 1 if left == self._periods(seconds) else min(left, _AT_ONCE)
@@ -105,8 +105,8 @@ class ServoLoop(Servo):
         self.state.q, self.state.met = self.state.here.copy(), None
 
     def floating(self, seconds: float) -> Motion[None]:
-        """Balance only gravity and load, so that a push moves the hand. The position of the arm at the end becomes
-        the set-point.
+        """Balance only gravity and load, so that a push moves the hand. The final position of the arm becomes the
+        set-point.
         """
         for _ in range(self._periods(seconds)):
             here = self.chain.at_rest(self.state.here)
@@ -115,9 +115,7 @@ class ServoLoop(Servo):
         self.state.q, self.state.met = self.state.here.copy(), None
 
     def exerting(self, torque: Array) -> Motion[None]:
-        """Exert joint torques, shape (n,), for a servo period. The position of the arm at the end becomes the
-        set-point.
-        """
+        """Exert joint torques, shape (n,), for a servo period. The final position of the arm becomes the set-point."""
         yield from self._wait(torque)
         self.state.q, self.state.met = self.state.here.copy(), None
 
@@ -177,14 +175,15 @@ class ServoLoop(Servo):
     ) -> Motion[Outcome]:
         """Follow set-points through free air. `lift_off` is the number of set-points of the lift-off. See `following`.
 
-        An obstacle and a force on the hand raise two different errors. They are distinguished by the distance of the
-        hand from its set-points in the middle of the motion. A hand that meets an obstacle lags behind its set-points
-        only after it has met the obstacle. A hand on which a force acts is displaced during the whole motion.
+        An obstacle and a steady force on the hand raise two different errors. The distance of the hand from its
+        set-points in the middle of the motion shows which error to raise. A hand that meets an obstacle lags behind
+        its set-points only after it has met the obstacle. A hand on which a steady force acts is displaced during the
+        whole motion.
 
         The torques are compared with the arm's weight only if the hand is clear of all objects when the motion begins.
         After a guarded motion, for example, a held pin may stand in a hole, and the hole then bears part of the
-        weight. And the fingers may press against a wall of the hole; until they are out of the hole, this force looks
-        like friction. So unless the hand is clear, friction is judged only after the lift-off.
+        weight. The fingers may also press against a wall of the hole. Until the fingers are out of the hole, this
+        force looks like friction. If the hand is not clear, friction is therefore judged only after the lift-off.
         """
         clear, self.state.clear = self.state.clear, False
         lift_off = 0 if clear else lift_off
@@ -209,8 +208,8 @@ class ServoLoop(Servo):
         """Move along a straight course, pressing, turning or yielding as the course says. The motion ends early if
         `guard` trips.
 
-        The arm stays under a position servo whose set-point is moved by the measured force, so that no joint needs
-        to be slack.
+        The position servo stays on, and the measured force moves its set-point. The arm therefore yields without any
+        slack joint.
         """
         self.state.met = None
         zeroed = yield from self.zeroing()
@@ -279,15 +278,16 @@ class ServoLoop(Servo):
     def zeroing(self) -> Motion[Outcome]:
         """Hold still and take the present force as zero. In free air the force is close to zero.
 
-        If friction is known, dither first keeps the joints sliding to and fro. Without dither, the joints could
-        rest anywhere within their friction, and the tare would contain that friction.
+        If the friction of the joints is known, the servo adds a dither torque, which keeps the joints sliding to and
+        fro. Without dither, the joints could rest anywhere within their friction, and the tare would contain that
+        friction.
 
-        The force on the hand is computed from the rates, so a tachometer that scatters would be felt as a force. If
-        the joints slide unevenly, the arm therefore holds still a second time, without dither, and the rates are
-        checked.
+        The force on the hand is computed from the rates, so a tachometer whose readings scatter would cause a false
+        force. Such readings also look like joints that slide unevenly. If the joints seem to slide unevenly, the arm
+        therefore holds still a second time, without dither, and the rates are checked.
 
-        If the reading of a potentiometer jumps meanwhile, the motion ends at once, because the servo would follow the
-        wrong reading and move the joint.
+        If the reading of a potentiometer jumps while the arm holds still, the motion ends at once, because the servo
+        would follow the wrong reading and move the joint.
         """
         uneven = yield from self._taring()
         scatter = (yield from self._resting()) if uneven else None
@@ -298,8 +298,8 @@ class ServoLoop(Servo):
         return self._force_in_air() if self.state.in_air and off_zero(self._unloaded()) else REACHED
 
     def _taring(self) -> Motion[bool]:
-        """Take the present force as zero. Returns True if the dither makes the joints slide unevenly. If the
-        screwdriver turns, it also shakes the arm; the result is then False.
+        """Take the present force as zero. Returns True if the dither makes the joints slide unevenly. Returns False if
+        the screwdriver turns, because the screwdriver shakes the arm too.
         """
         here, dither, settle = self.dynamics(), DITHER * self.state.friction, self.arm.servo.settle
         felt, rates = [], []
@@ -336,9 +336,9 @@ class ServoLoop(Servo):
     def height(self) -> float:
         """Height (m, in W) at which the hand has stopped, computed from its set-point.
 
-        At the hand, one step of the converters is up to .05 in, while a set-point has no steps. The arm takes many
-        readings while it moves, and the rounding errors of these readings average out. Therefore, if the same force
-        stops two motions, both end at the same mean height.
+        The readings have steps of up to .05 in at the hand, because the converters round them. A set-point has no
+        steps. The arm takes many readings while it moves, and the rounding errors of these readings average out. On
+        average, two motions that the same force stops therefore end at the same height.
         """
         met = self.state.met
         return float(self.chain.forward(self.state.q)[2, 3] if met is None else met[2])
@@ -373,8 +373,8 @@ class ServoLoop(Servo):
     # -- doubting -----------------------------------------------------------------------------------
 
     def _unloaded(self) -> Array:
-        """Return the force (N, shape (3,)) on the hand at the last tare, without the weight of the load that the servo
-        compensates.
+        """Return the force (N, shape (3,)) on the hand at the last tare. The weight that the servo compensates is not
+        included.
         """
         return np.asarray(self.state.tare[:3] + np.array((0.0, 0.0, self.state.load)))
 
@@ -432,10 +432,11 @@ class ServoLoop(Servo):
         return self._alone(met) or Outcome(error=errors.SERVO_LAG, cause=cause)
 
     def _lagging(self, swing: Array) -> tuple[int, float]:
-        """Find the joint whose following error is largest relative to its limit. Returns the joint and this ratio.
+        """Find the joint whose following error is largest relative to its limit. Returns the joint, and the ratio of
+        its error to the limit.
 
-        `swing`, shape (2, n), is updated in place. It holds, for each joint and for each side of the set-point, the
-        largest ratio during the motion.
+        `swing`, shape (2, n), is updated in place. It holds the largest ratio during the motion for each joint, on
+        each side of the set-point.
         """
         off = (self.state.here - self.state.q) / constants(self.arm).lag
         np.maximum(swing, off * _SIDES, out=swing)
@@ -446,7 +447,7 @@ class ServoLoop(Servo):
         """Check a motion through free air: no joint may have taken far more torque than its friction explains. Without
         known friction, nothing is checked.
 
-        If a joint lagged behind, no other joint is blamed.
+        If the joint `lagging` lagged behind, no error is returned for any other joint.
         """
         friction = self.state.friction
         found = stiff(self.built, taken, friction, self.state.weights) if taken and friction.any() else None

@@ -85,7 +85,7 @@ class SearchState(MutableRecord, kw_only=True):
 
     def place(self, pattern: SearchPattern, number: int) -> tuple[float, float] | None:
         """Return the horizontal offset (m) of a place of the search. If the search follows a line, the place is on
-        this line; if not, the place is one of `pattern`. Returns None after the last place.
+        this line. If not, `pattern` gives the place. Returns None after the last place.
         """
         if number >= self.limit:
             return None
@@ -103,7 +103,7 @@ class Shot:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class VisionResult:
-    """What vision found in a picture."""
+    """The objects and places that vision found in a picture."""
 
     general: GeneralLocation | None = None
     specific: SpecificLocation | None = None
@@ -166,7 +166,7 @@ class DriveState(MutableRecord, kw_only=True):
 
     @classmethod
     def holding(cls, sensed: Sensed, arm: ArmModel) -> "DriveState":
-        """Make the state that holds the arm and the fingers in place with full grip."""
+        """Return the state in which the servo holds the arm and the fingers in place, with full grip."""
         q = sensed.q
         return cls(q=q.copy(), here=q.copy(), friction=np.zeros(len(q)), gap=sensed.gap, grip=arm.hand.grip)
 
@@ -209,7 +209,7 @@ class ExecutionState(SystemState, kw_only=True):
     undoing: ReversalOrder | None = None  # the reversal in progress
     lets_go: Natural | None = None
     """Index of the step in which the hand picked up the screw that has just been turned out. When this step is
-    reversed, the hand leaves the screw where it picked it up.
+    reversed, the hand leaves the screw at the place where it picked the screw up.
     """
     held: float | None = None
     """Gap (m) at which the hand holds an object during a reversal. None if the hand holds no object, or after the
@@ -275,6 +275,6 @@ def _finite(value: object) -> bool:
 
 
 def vector(p: Array) -> tuple[float, float, float]:
-    """Convert a vector for an event, rounded to a micrometre."""
+    """Return a vector (m) as three numbers for an event, each rounded to a micrometre."""
     x, y, z = (round(float(c), 6) + 0.0 for c in p)
     return x, y, z

@@ -1,5 +1,5 @@
-"""Presents an arm as a machine of axes: the axes of the tool, and the gap of the hand. The servo of the arm runs in
-the computer.
+"""Lets a program command an arm by axes: the axes of the tool, and the gap of the hand. The arm's own servo moves the
+joints.
 """
 
 from dataclasses import replace
@@ -29,17 +29,17 @@ class ToolAxes(Axes):
     """The axes x, y, z (m, in W), O, A, T (rad) and the gap of the hand (m). A channel gives the force that the
     hand exerts on the world.
 
-    For each goal, the arm is driven for one servo period towards the goal, at most at the speed limit of each axis. No
+    Each goal moves the arm for one servo period, in the direction of the goal. No axis exceeds its speed limit. No
     path is planned: the caller must give a goal in every period, or the watchdog sets the brakes. Force is measured
-    relative to the force at the last call of `tare`. The force is estimated well if the drive knows the friction of
-    the joints (`measure_joints`). The estimate is one period late: a descent onto the table that should stop at 6 N
-    stops at 6.1 to 7.5 N if the speed is .01 m/s, at 17 N if the speed is .025 m/s, and at 34 N if the speed is .05
-    m/s.
+    relative to the force at the last call of `tare`. The estimate of the force is good if the drive knows the friction
+    of the joints (`measure_joints`). The estimate is one period late. For example, a descent onto the table that
+    should stop at 6 N stops at a greater force: at 6.1 to 7.5 N if the speed is .01 m/s, at 17 N at .025 m/s, and at
+    34 N at .05 m/s.
     """
 
     def __init__(self, drive: ArmDrive, name: str = "tool", reach: float = 1.5) -> None:
-        """Take control of an arm that the servo holds in place. A goal must be at most `reach` (m) from the origin of
-        W, and the arm must be able to reach it.
+        """Take control of an arm that the servo holds in place. The coordinates x, y and z of a goal must be between
+        -`reach` and `reach` (m), and the arm must be able to reach the goal.
         """
         self.name, self._drive = name, drive
         self._start = self._goal = self._pose(drive.state.q)  # set-points before and at the end of a period
@@ -77,14 +77,14 @@ class ToolAxes(Axes):
         return self._goal
 
     def resume(self, goal: Array) -> None:
-        """Continue from set-points that the method `goal()` returned earlier. The drive must be in the state that it
-        had when `goal` returned these set-points.
+        """Continue from set-points that the property `goal` had earlier. The drive must be in the same state as at
+        that time.
         """
         self._start = self._goal = goal
         self._motion = None
 
     def release(self) -> None:
-        """Give up the present goal, because the brakes were set. The arm stays where it is."""
+        """Give up the present goal. Call this method after the brakes were set. The arm stays where it is."""
         self.resume(self._pose(self._drive.state.q))
 
     def read(self) -> AxesReading:
@@ -115,7 +115,7 @@ class ToolAxes(Axes):
         self._go_on(self._motion)
 
     def _finish(self) -> None:
-        """If the servo period begun by the last `put` has passed, process its readings."""
+        """If the servo period that the last `put` began has passed, process the readings of this period."""
         if self._motion is not None and self._drive.cell.clock.now > self._put_at:
             self._go_on(self._motion)
 
@@ -132,7 +132,7 @@ class ToolAxes(Axes):
             raise Refused(f"{self.name} does not reach its goal: {ERRORS[outcome.error]}")
 
     def _pose(self, q: Array) -> Array:
-        """Return x, y, z (m) and O, A, T (rad) of the tool at joint positions `q`, shape (6,)."""
+        """Return x, y, z (m) and O, A, T (rad) of the tool as an array, shape (6,). `q` are the joint positions."""
         X_WT = forward(self._drive.arm, q)
         return np.array([*X_WT[:3, 3], *hand_angles(X_WT)])
 

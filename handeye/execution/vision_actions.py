@@ -34,7 +34,7 @@ Found = TypeVar("Found")
 
 
 def _tv(run: ExecutionContext) -> TvCamera:
-    """Return the camera of the cell. Every plan that takes pictures requires a camera."""
+    """Return the camera of the cell. There is one, because every plan that takes pictures requires it."""
     assert run.cell.camera is not None
     return run.cell.camera
 
@@ -92,8 +92,8 @@ def look(run: ExecutionContext, operation: Look) -> Fault | None:
 
 
 def _dead(run: ExecutionContext, name: str, picture: Picture) -> SenseCause | None:
-    """Return a reason to suspect that the camera is faulty, or None. Such a reason is a picture that is blank, noisy
-    or equal to an earlier picture.
+    """Return a reason to suspect that the camera is faulty, or None. The camera is suspect if the picture is blank,
+    noisy or equal to an earlier picture.
     """
     if blank(picture):
         return PictureBlank(picture=name)
@@ -228,8 +228,8 @@ Examination = Callable[[Picture, Picture, View, Part, Pose2D], Found | Failure]
 def _compared(
     run: ExecutionContext, operation: Comparison, number: int, examine: Examination[Found]
 ) -> Found | Fault | None:
-    """Examine the two pictures of a comparison with `examine`, which takes the earlier picture first. Returns the
-    finding. If the examination fails, returns the error `number`. If vision is switched off, returns None.
+    """Call `examine` with the two pictures of a comparison, the earlier picture first, and return its finding. If the
+    examination fails, returns the error `number`. If vision is switched off, returns None.
     """
     if "vision" in run.without:
         return None

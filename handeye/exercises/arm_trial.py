@@ -124,7 +124,7 @@ class ArmTrial:
         )
 
     def _again(self, seed: int) -> str:
-        """Return the command that runs the program in this world, and saves the run for the report."""
+        """Return the command that runs the program in the world of a seed, and saves the run for the report."""
         words = ["run", self.file, "--task", self.task, *world_words(self._world(seed), self.task)]
         return shlex.join(["handeye", *words, "--out", f"seed{seed}"])
 

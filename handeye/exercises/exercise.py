@@ -1,4 +1,6 @@
-"""Defines an exercise: a job for a student's program, with the worlds or orders in which the program is judged."""
+"""Defines an exercise: a job for a student's program, and the cases in which the program is judged. Each case is a
+world, or stands for every order in which the program's tasks can run.
+"""
 
 from __future__ import annotations
 
@@ -22,7 +24,7 @@ Standing = Literal["right", "wrong", "silent"]
 
 
 class Verdict(Record, frozen=True, kw_only=True):
-    """The verdict on a program in one case: in one world, or in every order of its tasks."""
+    """The verdict on a program in one case: in one world, or in every order in which the program's tasks can run."""
 
     case: str  # such as `seed 3`
     standing: Standing
@@ -136,7 +138,7 @@ class Exercise(ABC):
 
     @abstractmethod
     def broken_rules(self, given: Submission) -> list[str]:
-        """Return the rules that a program breaks, each as a sentence. The program has no errors."""
+        """Return the rules that a program breaks, each as a sentence. The program must be free of errors."""
 
     @abstractmethod
     def verdicts(self, given: Submission) -> list[Verdict]:

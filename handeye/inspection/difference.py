@@ -21,10 +21,10 @@ Pair = tuple[int | None, int | None]  # numbers of a step before and after; None
 
 
 def aligned(before: Sequence[Step], after: Sequence[Step]) -> list[Pair]:
-    """Pair the steps of two programs. Each step occurs in exactly one pair. The pairs are in the order of the text.
+    """Pair the steps of two programs. Each step occurs in exactly one pair. The pairs are in the order of the steps.
 
-    Identical steps are matched first. Between two matches, steps are paired by their statements, and then by the
-    kinds of their operations, so that a changed step does not count as one removed step and one added step.
+    Identical steps are matched first. The steps between two matches are then paired by their statements, and last by
+    the kinds of their operations. A changed step therefore does not count as one removed step and one added step.
     """
     keys = (
         lambda step: f"{one_line(step.text)} {does(step)}",
@@ -37,8 +37,8 @@ def aligned(before: Sequence[Step], after: Sequence[Step]) -> list[Pair]:
 def _matched(
     before: Sequence[Step], after: Sequence[Step], old: range, new: range, keys: tuple[Any, ...]
 ) -> Iterator[Pair]:
-    """Match the steps of two ranges by the first of `keys`. Then match the steps between these matches by the other
-    keys.
+    """Match the steps of two ranges for which the first of `keys` gives the same value. Then match the steps that
+    remain between these matches by the other keys.
     """
     if not keys or not old or not new:
         yield from ((number, None) for number in old)
@@ -54,8 +54,9 @@ def _matched(
 
 
 def leads_alike(pairs: Sequence[Pair], old: int | None, new: int | None) -> bool:
-    """Return True if an edge leads to the same step in both programs: to step `old` of the first program, and to step
-    `new` of the second. Steps that only one program has are skipped. None stands for the end of a program.
+    """Return True if an edge leads to the same step in both programs. The edge leads to step `old` in the first
+    program and to step `new` in the second. Steps that only one program has are skipped. None stands for the end of a
+    program.
     """
     at = _pair_of(pairs, 0, old)
     if at < len(pairs) and pairs[at][1] is not None:
@@ -64,8 +65,8 @@ def leads_alike(pairs: Sequence[Pair], old: int | None, new: int | None) -> bool
 
 
 def _pair_of(pairs: Sequence[Pair], side: int, number: int | None) -> int:
-    """Return the index of the pair that contains step `number` on one side. For the end of the program, return the
-    number of pairs.
+    """Return the index of the pair that contains step `number` of one program: of the first if `side` is 0, of the
+    second if it is 1. For the end of the program, return the number of pairs.
     """
     return next((at for at, pair in enumerate(pairs) if pair[side] == number is not None), len(pairs))
 
@@ -145,14 +146,14 @@ _ALIKE = 1e-9  # m, rad or s; smaller differences between motions are rounding e
 
 
 class MotionChange(Record, frozen=True, kw_only=True):
-    """A change of a planned motion: of its duration (s) and of the joint positions at its end."""
+    """How a planned motion changed: its duration (s), and the joint positions at its end."""
 
     before: float | None  # planned duration, s; None if there was no motion
     after: float | None
     joint: int | None = None
-    """Number (from 1) of the joint whose end position changed most. The change of a joint is measured by the time in
-    which the joint travels from the old end position to the new one. None if the end positions agree or the arms
-    differ.
+    """Number (from 1) of the joint whose end position changed most. So that hinges and slides can be compared, the
+    measure of a change is the time that the joint needs for this change at its greatest speed. None if the end
+    positions agree or the arms differ.
     """
     name: str = ""
     kind: Literal["revolute", "prismatic"] | None = None

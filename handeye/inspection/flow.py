@@ -25,8 +25,8 @@ class Node:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FlowEdge:
-    """An edge from a step to the next step; `end` is None at the end of the program. If `error` is given, the edge
-    is taken when this error was raised.
+    """An edge from a step to the next step. `end` is None at the end of the program. If the edge has a number `error`,
+    the program takes the edge when the error with this number was raised.
     """
 
     start: int

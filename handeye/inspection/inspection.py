@@ -3,7 +3,8 @@ each step depends.
 
 A step may depend on measurements made during the run: the places of parts that vision located, saved positions and
 differences, and the place that a search has reached. For each step, handeye follows all paths through the graph that
-lead to the step, including loops and error edges, and finds the newest measurements that can be valid there.
+lead to the step, including loops and error edges. It thus finds the newest measurements that can be valid at this
+step.
 """
 
 from typing import Final, Literal, get_args
@@ -25,7 +26,7 @@ Newest = dict[Key, frozenset[int]]  # for each measurement, the steps that may h
 
 
 class Dependence(Record, frozen=True, kw_only=True):
-    """A measurement on which a step depends. A step makes this measurement during the run."""
+    """A measurement on which a step depends. An earlier step makes this measurement during the run."""
 
     kind: Measured
     name: str  # empty for a search
@@ -54,9 +55,9 @@ def _dependence(program: Program, key: Key, level: bool, steps: frozenset[int]) 
 
 
 def _uses(program: Program, kept: set[str], operation: Operation) -> list[tuple[Key, bool]]:
-    """Return the measured values that an operation needs, if it is a motion or a look of the camera. Each value has a
-    flag, which is True if only the horizontal part of the value is needed. `kept` holds the positions that `HERE`
-    defines.
+    """Return the measured values that an operation needs. Only motions and looks of the camera need such values. Each
+    value has a flag, which is True if only the horizontal part of the value is needed. `kept` holds the positions that
+    `HERE` defines.
     """
     found: list[tuple[Key, bool]] = []
     for kind, name, level in operation.reads if operation.family in ("motion", "sight") else ():

@@ -2,8 +2,8 @@
 
 Stages stand side by side in rows, which are called shelves. The steps of a stage run from top to bottom. A long stage
 has several columns, but no loop is split between two columns. An edge to the step below is short and straight. An edge
-that goes back runs left of its column. An edge that skips steps runs right of its column. Each such edge has a
-separate lane. An edge to another column runs above the columns.
+that goes back runs left of its column. An edge that skips steps runs right of its column. Each edge on the left or
+right has a lane of its own. An edge to another column runs above the columns.
 """
 
 from collections.abc import Sequence

@@ -71,7 +71,7 @@ def stops(guards: g.Guards) -> str:
 
 
 def conditions(operation: AnyOperation) -> tuple[str, ...]:
-    """Write the guards of an operation and the force that it exerts."""
+    """Write the guards of an operation, and the force that the operation exerts."""
     guarded = (stops(operation.guards),) if operation.guards else ()
     said = _CONDITIONS.get(type(operation))
     return guarded if said is None else (*guarded, *said(operation))

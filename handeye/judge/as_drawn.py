@@ -33,11 +33,11 @@ _PHYSICS: Final = (
 
 
 def altered(model: mujoco.MjModel, drawn: mujoco.MjModel, parts: Mask) -> dict[str, list[str]]:
-    """Find the bodies of `model` that differ from the original model `drawn`, each with the kinds of properties
-    that differ.
+    """Find the bodies that differ between `model` and the original model, `drawn`. Returns, for each of these bodies,
+    the kinds of properties that differ.
 
-    The mask `parts`, shape (nbody,), selects the bodies to compare. Any difference counts, however small, because
-    building a scene again gives the same bytes.
+    The mask `parts`, shape (nbody,), selects the bodies to compare. Any difference counts, however small. Rounding
+    cannot cause one, because two builds of the same scene agree in every byte.
     """
     if any(getattr(model, count) != getattr(drawn, count) for count in (*_COUNTS.values(), "nmeshvert")):
         return {"the scene": ["number of elements"]}
@@ -68,8 +68,9 @@ def _differences(model: mujoco.MjModel, drawn: mujoco.MjModel, parts: Mask) -> I
 
 
 def _fields(drawn: mujoco.MjModel) -> Iterator[tuple[str, NDArray[np.int32]]]:
-    """Yield the names of the model fields to compare. For each row of a field, also give the body to which the
-    row belongs."""
+    """Yield the name of each model field to compare, with an array that gives, for each row of the field, the body to
+    which the row belongs.
+    """
     bodies = {
         "body": np.arange(drawn.nbody, dtype=np.int32), "jnt": drawn.jnt_bodyid, "dof": drawn.dof_bodyid,
         "geom": drawn.geom_bodyid, "site": drawn.site_bodyid, "eq": _bonded(drawn), "actuator": _driven(drawn),
@@ -88,7 +89,7 @@ def _fields(drawn: mujoco.MjModel) -> Iterator[tuple[str, NDArray[np.int32]]]:
 
 
 def _shared(drawn: mujoco.MjModel) -> Iterator[str]:
-    """Yield the names of the model fields that are compared and that do not belong to a single body. Vertices of
+    """Yield the names of further model fields to compare. These fields do not belong to single bodies. Vertices of
     meshes are compared separately, by shape.
     """
     for field in dir(drawn):
@@ -121,7 +122,7 @@ def _driven(drawn: mujoco.MjModel) -> NDArray[np.int32]:
 
 
 def _meshes(model: mujoco.MjModel, drawn: mujoco.MjModel) -> Mask:
-    """Return a mask of the meshes whose vertices differ, shape (nmesh,)."""
+    """Return a mask, shape (nmesh,), that selects the meshes whose vertices differ."""
     mesh = np.repeat(np.arange(drawn.nmesh), drawn.mesh_vertnum)
     other = np.zeros(drawn.nmesh, bool)
     other[mesh[(model.mesh_vert != drawn.mesh_vert).any(axis=1)]] = True

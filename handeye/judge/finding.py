@@ -30,8 +30,8 @@ class Finding:
         return not self.ok and not self.caution
 
     def limited(self, limit: float) -> "Finding":
-        """Return a copy of the finding with another limit. `limit` is in the unit of the finding. If the value
-        is beyond `limit`, the referee rejects the work.
+        """Return a copy of the finding with another limit. `limit` is in the unit of the finding. If the value is
+        beyond `limit`, the copy makes the referee reject the work.
         """
         ok = self.value <= limit if self.relation == "at most" else self.value >= limit
         return replace(self, limit=limit, ok=ok, caution=False)
@@ -47,7 +47,7 @@ Findings = Mapping[str, Finding]  # by the name of the point that was checked
 
 def at_most(value: float, limit: float, unit: str, subject: str, *, caution: bool = False) -> Finding:
     """Return a finding whose `ok` is True if the value is at most `limit`. If `caution` is True, a value above the
-    limit is only a warning: the referee does not reject the work because of it.
+    limit is only a warning: the referee does not reject the work for this value.
 
     >>> handeye.at_most(0.1, 0.2, "mm", "gap under the head").ok
     True

@@ -39,8 +39,8 @@ class SettledState:
         return float(np.linalg.norm(self.pose(body)[:3, 3] - there))
 
     def strayed(self, bodies: Sequence[str], places: Sequence[str]) -> float:
-        """Return the greatest distance of the bodies from their places (m). The places are the initial
-        positions of the bodies named in `places`.
+        """Return the greatest distance (m) of one of the bodies in `bodies` from its place. The places are
+        the initial positions of the bodies named in `places`.
 
         Any body may be at any place, but only one body at each place. The nearest pairs of a body and a place are
         assigned first.
@@ -77,8 +77,8 @@ class SettledState:
         return float(mujoco.mj_geomDistance(self.model, self.data, *ids, 0.5, ends))
 
     def nearest(self, geoms: NDArray[np.intp], others: NDArray[np.intp], most: float) -> float:
-        """Return the least distance between two groups of geoms (m). Distances are measured up to the limit `most`
-        (m), which is also the greatest value returned.
+        """Return the least distance between two groups of geoms (m). If the distance is more than `most` (m), the
+        function returns `most`.
         """
         model, ends = self.model, np.zeros(6)
         between = self.data.geom_xpos[geoms][:, None] - self.data.geom_xpos[others]
@@ -90,8 +90,8 @@ class SettledState:
         )
 
     def overlaps(self, solid: NDArray[np.bool_]) -> tuple[NDArray[np.int32], Array]:
-        """Return the pairs of `solid` geoms that belong to different bodies and overlap, and the depth of each
-        overlap (m). Contact bits are ignored.
+        """Return the pairs of overlapping geoms, and the depth of each overlap (m). Both geoms of a pair are `solid`,
+        and they belong to different bodies. Contact bits are ignored.
         """
         model = copy.deepcopy(self.model)
         for field in (model.geom_contype, model.geom_conaffinity):

@@ -1,5 +1,5 @@
-"""Finds machines by name. A machine is an arm with axes: a value of type `ArmMachine`, with its specification and
-the function that puts it on a bench.
+"""Finds machines by name. A machine is an arm with axes. It is a value of type `ArmMachine`, which contains the arm's
+specification and the function that puts the arm on a bench.
 
 A system can use an `ArmMachine` directly. Machines that other systems can find by name are listed here, or in
 `Entry.machines` of a system.

@@ -64,8 +64,8 @@ class ArmMachine:
         return mujoco.MjSpec.from_file(str(scenes() / self.scene_file))
 
     def on_bench(self, bench: Bench, bent: Callable[[Array], Array] = np.zeros_like) -> BenchAxes:
-        """Put the arm in the scene of a bench. `bent` computes, from the potentiometer readings, the difference
-        between the true and the indicated positions of the axes (not of the hand).
+        """Put the arm in the scene of a bench. `bent` takes the potentiometer readings of the axes, without the hand.
+        It returns the difference between the true and the indicated positions of these axes.
         """
         from handeye.cell.bench_axes import BenchAxes, sensor
 

@@ -1,4 +1,4 @@
-"""The Purbrick arm, as its manual would specify it and as its scene contains it.
+"""The Purbrick arm: the specification that its manual would contain, in agreement with the arm's scene.
 
 The paper describes six axes (two of them belong to the platter), two fingers, and a force sensor in one finger, but
 gives no dimensions. The authors of handeye chose or measured all numbers; scenes/purbrick_arm/README.md says which are

@@ -96,8 +96,8 @@ def _references(plan: Plan, step: Step) -> Iterator[str]:
 
 
 def _places(step: Step, lines: Mapping[str, Sequence[str]]) -> Iterator[str]:
-    """Yield the faults in the places in the source that a step and its modifiers name: lines or columns that the
-    source does not have.
+    """A step and its modifiers name places in the source. Yield a fault for each place whose line or column the source
+    does not have.
     """
     parts: tuple[Step | SourcePlace, ...] = (step, *step.modifiers)
     for words in parts:

@@ -117,8 +117,8 @@ def plan_digest(plan: Plan) -> str:
 
 
 def _without_fractions(value: Any) -> Any:
-    """Remove all floating-point numbers from a value made of dictionaries and lists, because the planner may have
-    computed them.
+    """Remove all floating-point numbers from a value made of dictionaries and lists. The planner may have computed
+    such numbers, so they can differ in their last digits.
     """
     if isinstance(value, dict):
         return {key: _without_fractions(each) for key, each in value.items()}

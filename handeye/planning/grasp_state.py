@@ -58,8 +58,8 @@ class FirstGrasp(Record, frozen=True, kw_only=True):
 
 
 def first_grasp(program: Program, hand: HandModel, after: int, part: str) -> FirstGrasp | None:
-    """Find the first grasp at a position of a part. Only grasps in the steps after step `after` count; the steps are
-    in the order of the text. Returns None if there is no such grasp.
+    """Find the first grasp at a position of a part. A grasp counts only if its step comes after step `after` in the
+    text. Returns None if there is no such grasp.
     """
     state = GraspState(program, hand)
     for number, step in enumerate(program.steps):

@@ -1,4 +1,4 @@
-"""Checks each planned motion for collisions, and checks that the arm is strong enough for it."""
+"""Checks that each planned motion is free of collisions, and that the arm is strong enough for the motion."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -124,9 +124,9 @@ class Weakness:
 def weakness(
     arm: ArmModel, q: Array, wanted: Array, *, turning: bool = False, weight: float = 0.0
 ) -> Weakness | None:
-    """Find the joint that is too weak to let the hand exert the force `wanted` (N, in W) at each of the configurations
-    `q`, shape (N, n). Returns None if the hand can exert the force at all configurations. If `turning` is True,
-    `wanted` is a moment, in N m. `weight` (N) is the weight of a load in the hand.
+    """Find the joint that prevents the hand from exerting the force `wanted` (N, in W) at one or more of the
+    configurations `q`, shape (N, n). Returns None if the hand can exert the force at all configurations. If `turning`
+    is True, `wanted` is a moment, in N m. `weight` (N) is the weight of a load in the hand.
     """
     size = float(np.linalg.norm(wanted))
     if size == 0.0:
@@ -184,8 +184,8 @@ class Checks:
         self._obstacles = Obstacles(self.program)
 
     def forget(self) -> None:
-        """Forget the state of the hand. This is needed at a step that only a jump reaches, because the hand may then
-        hold another object.
+        """Forget the state of the hand. Call this method at a step that only a jump reaches, because the hand may hold
+        another object after the jump.
         """
         self._grip, self._load = GraspState(self.program, self.arm.hand), None
 
@@ -214,8 +214,8 @@ class Checks:
                 return  # one finding for each motion is enough
 
     def strong(self, number: int, q: Array, demands: Sequence[Demand]) -> None:
-        """Check that the arm can carry its load at configurations `q`, shape (N, n), and can exert the demands at
-        both ends of the motion.
+        """Check that the arm can carry its load at the configurations `q` of a motion, shape (N, n). Check also that,
+        at both ends of the motion, the arm can exert the forces and moments in `demands`.
         """
         weight = 0.0
         if self._load is not None:

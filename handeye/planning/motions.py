@@ -40,8 +40,8 @@ class Unreachable:
 def move_trajectory(
     arm: ArmModel, q: Array, via: Sequence[Pose], X_WT: Pose, operation: Move, speed: float
 ) -> Trajectory | Unreachable:
-    """Compute the trajectory of a Move from `q` through hand poses `via` to `X_WT`. Returns the reason if there is no
-    such trajectory.
+    """Compute the trajectory of a Move from `q` through hand poses `via` to `X_WT`. If this trajectory is impossible,
+    return the reason why.
     """
     passed: list[Array] = []
     for name, X_via in zip(operation.via, via, strict=True):
@@ -59,7 +59,7 @@ def move_trajectory(
 
 
 def change_samples(arm: ArmModel, q: Array, operation: Change) -> Samples | IKResult:
-    """Compute the set-points of a Change from `q`. Returns the reason if the motion is impossible."""
+    """Compute the set-points of a Change from `q`. If the motion is impossible, return the reason why."""
     return straight(arm, q, np.array(operation.displacement), change_speed(operation))
 
 
@@ -69,8 +69,8 @@ def change_speed(operation: Change) -> float:
 
 
 def turn_samples(arm: ArmModel, q: Array, centre: Pose, operation: Turn) -> Samples | IKResult:
-    """Compute the set-points of a Turn about the vertical through `centre`. Returns the reason if the motion is
-    impossible.
+    """Compute the set-points of a Turn about the vertical through `centre`. If the motion is impossible, return the
+    reason why.
     """
     return arc(arm, q, centre[:2, 3], operation.angle, TURN_SPEED)
 

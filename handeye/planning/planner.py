@@ -47,11 +47,11 @@ _COLLISION_STRIDE = (
 def make_plan(
     program: Program, arm: ArmModel, *, task: str, speed: float = SPEED, start: Array | None = None
 ) -> tuple[Plan | None, list[PlanFinding]]:
-    """Plan a program for an arm. Returns two values: the plan, or None if there are errors; and the findings.
+    """Plan a program for an arm. Returns the plan and the findings. The plan is None if there are errors.
 
-    If only a `HERE` defines a position, the position gets the pose that the arm has at this `HERE` according to the
-    plan. The arm begins at `start`, shape (n,), rad and m. By default, the arm begins at the position `HOME`, or at
-    the first goal if the program has no `HOME`.
+    A position that only a `HERE` defines gets the pose in which the plan brings the arm to this `HERE`. The arm begins
+    at `start`, shape (n,), rad and m. By default, the arm begins at the position `HOME`, or at the first goal if the
+    program has no `HOME`.
     """
     findings = FindingList()
     walk = _Walk(
@@ -228,8 +228,8 @@ def plan_source(
 def plan_program(
     program: Program, arm: ArmModel, language: Language, *, task: str = "", start: Array | None = None
 ) -> tuple[Plan | None, list[Diagnostic]]:
-    """Plan a program. Returns two values: the plan, or None if there are errors; and diagnostics in the words of the
-    program's language. `task` does not affect the planning; it is only stored in the plan.
+    """Plan a program. Returns the plan, and diagnostics in the words of the program's language. The plan is None if
+    there are errors. `task` does not affect the planning; it is only stored in the plan.
     """
     plan, findings = make_plan(program, arm, task=task, start=start)
     return plan, language.phrase(program, arm, findings)

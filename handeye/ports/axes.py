@@ -1,4 +1,6 @@
-"""Defines machines with servos outside the computer. The computer sends goals, reads channels and sets outputs."""
+"""Defines machines whose servos are in the machine's own controller, not in the computer. The computer sends goals,
+reads channels and sets outputs.
+"""
 
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
@@ -81,8 +83,8 @@ class Axes(ABC):
         """Set the goals of all axes (rad or m, shape (n,)). The goals hold until the next call."""
 
     def power(self, on: bool) -> None:
-        """Switch the servos on or off. When they are switched on, they hold their present positions. Raises Refused if
-        the machine does not allow it.
+        """Switch the servos on or off. When the servos are switched on, they hold the axes at their present positions.
+        Raises Refused if the machine does not allow the switching.
         """
         raise Refused(f"the power of {self.name} cannot be switched")
 

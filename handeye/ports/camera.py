@@ -44,8 +44,8 @@ class TvCamera(ABC):
 
     @abstractmethod
     def lens(self, focal_length: float) -> float:
-        """Turn the turret to the lens with the focal length `focal_length` (m), one of LENSES. Returns the
-        duration (s). Raises InvalidInput if there is no such lens.
+        """Turn the turret to a lens. `focal_length` (m) is one of LENSES. Returns the
+        duration (s). Raises InvalidInput if no lens has this focal length.
         """
 
     @abstractmethod
@@ -70,12 +70,12 @@ class TvCamera(ABC):
 
     @abstractmethod
     def digitise(self, *, hold_target: bool = False) -> Picture:
-        """Take a picture of the present state. The caller must first let DIGITISE seconds pass. This is the time that
-        the tube and the digitiser need for a picture.
+        """Take a picture of the present state. The tube and the digitiser need DIGITISE seconds for a picture; the
+        caller must first let this time pass.
 
         Args:
             hold_target: keep the vidicon's target voltage (gain) as it was for the previous picture, and do not adjust
-                it. The target voltage must be kept if the two pictures will be subtracted from each other.
+                it. Keep the target voltage if this picture and the previous one will be subtracted from each other.
         """
 
     @property

@@ -25,7 +25,9 @@ class Clock(ABC):
     @property
     @abstractmethod
     def now(self) -> float:
-        """Seconds since the program began. Before the program begins, seconds since the cell was switched on."""
+        """Seconds since the program began. Before the program begins, the clock shows the seconds since the cell was
+        switched on.
+        """
 
     @property
     def tick(self) -> Fraction | None:
@@ -36,8 +38,8 @@ class Clock(ABC):
 
     @property
     def next_event(self) -> Fraction | None:
-        """Seconds until the next event, or None if no event will follow. An event counts only if it needs no command
-        and if tasks may wait for it.
+        """Seconds until the next event, or None if no event will follow. An event counts only if tasks may wait for
+        it, and if it happens without a command.
         """
         return None
 

@@ -72,7 +72,7 @@ class NoAnswer(BusFault):
 
 
 class StrayAnswer(BusFault):
-    """Raised if an answer was longer than the question had asked for."""
+    """Raised if a microcomputer sent more bytes than belong to the answer."""
 
     def __init__(self, number: int) -> None:
         super().__init__(f"STRAY {number}: a byte arrived that no question asked for")
@@ -94,8 +94,8 @@ class MicrobusPort(ABC):
     @property
     @abstractmethod
     def next_event(self) -> int | None:
-        """The time (microseconds) until which the status lines, the interrupt and `free` will not change. The value is
-        None if these levels will not change without a command.
+        """The earliest time (microseconds) at which a status line, the interrupt or `free` can change. The value is
+        None if they cannot change without a command.
         """
 
     @abstractmethod
@@ -122,13 +122,14 @@ class MicrobusPort(ABC):
 
     @abstractmethod
     def answer(self) -> bytes:
-        """Return the answer to the last question. Raises BusFault if the transfer failed, and Refused while it
-        is still in progress."""
+        """Return the answer to the last question. Raises BusFault if the transfer failed, and Refused if the transfer
+        is still in progress.
+        """
 
     @abstractmethod
     def page(self, number: int) -> int:
-        """Return ten status lines at once: the lines of microcomputers 5n to 5n + 4. Lines A are in bits 1, 3, 5, 7
-        and 9; each line B is in the bit below its line A.
+        """Return ten status lines at once. For page n, these are the lines of microcomputers 5n to 5n + 4. Lines A are
+        in bits 1, 3, 5, 7 and 9; each line B is in the bit below its line A.
 
         No time passes.
         """
@@ -141,8 +142,9 @@ class MicrobusPort(ABC):
     @property
     @abstractmethod
     def memory(self) -> MutableRecord:
-        """The complete state of the machine behind the bus, including bytes in transfer, as a record for
-        checkpoints."""
+        """The complete state of the machine, including the bytes that are being transferred on the bus, as a record
+        for checkpoints.
+        """
 
     @abstractmethod
     def remember(self, memory: MutableRecord) -> None:
@@ -156,7 +158,7 @@ class MicrobusPort(ABC):
 
     def begun(self, number: int) -> bool:
         """Return True if the status of a microcomputer shows that its command is being executed or was refused. Call
-        this after the last byte of a command that takes time.
+        this method after the last byte of a command that takes time.
         """
         return self.status(number) is not Status.FREE
 

@@ -66,8 +66,8 @@ class HandPort(ABC):
 
     @abstractmethod
     def drive(self, gap: float, grip: float) -> None:
-        """Set the goal of the gap between the fingers (m), and the greatest force of each finger (N). Raises
-        InvalidInput unless both values are finite.
+        """Set the gap (m) that the fingers should reach, and the greatest force of each finger (N).
+        Raises InvalidInput unless both values are finite.
         """
 
 
@@ -83,7 +83,7 @@ class ArmPort(ABC):
     """The motors, brakes and sensors of an arm.
 
     A watchdog guards the arm. If no new command arrives before the clock has advanced by a servo period, the watchdog
-    switches the drives off and sets the brakes. The drives stay off until the program, too, has set the brakes. If the
+    switches the drives off and sets the brakes. The drives stay off until the program has set the brakes itself. If the
     clock advances by more than a servo period at once, the drives are off for the whole of that time. The watchdog
     does not switch off the hand, which keeps its grip.
     """

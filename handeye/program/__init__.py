@@ -1,1 +1,1 @@
-"""The checked program and its model of the cell. Neither depends on a language or an arm."""
+"""The checked program and its model of the cell. Both are independent of the program's language and of the arm."""

@@ -29,7 +29,7 @@ class Event(Record, frozen=True, kw_only=True, tag_field="event", tag=True):
 
 
 class SystemEvent(Event, frozen=True, kw_only=True):
-    """Base class of the events that a system adds to the events of all systems. `System.events` lists them."""
+    """Base class of the events that only one system has. `System.events` lists a system's events of this kind."""
 
     importance: ClassVar[Importance] = "info"
 
@@ -61,8 +61,8 @@ class RunStarted(Event, frozen=True, kw_only=True):
 
     @property
     def made_alike(self) -> "RunStarted":
-        """A copy of the event without three facts: the versions, the processor, and the renderer's platform. Such
-        copies make runs from different computers comparable.
+        """A copy of the event without three facts: the versions, the processor, and the renderer's platform. Use these
+        copies to compare runs from different computers.
         """
         camera = msgspec.structs.replace(self.camera, platform="")
         return msgspec.structs.replace(self, versions={}, processor=UNSET, camera=camera)
@@ -142,8 +142,8 @@ class FrictionMeasured(Event, frozen=True, kw_only=True, omit_defaults=True):
 
 
 class GuardFaint(Event, frozen=True, kw_only=True):
-    """The limit of a guard is below `friction` (N or N m), the force or moment that may be sensed in free air where
-    the motion begins.
+    """The limit of a guard is so low that friction could trip it. At the start of the motion, the arm may sense up to
+    `friction` (N or N m) in free air.
     """
 
     guard: GuardKind
@@ -238,8 +238,8 @@ class PartInspected(Event, frozen=True, kw_only=True):
 
 
 class PartMatched(Event, frozen=True, kw_only=True):
-    """Vision compared the place of a part in two pictures. The part is displaced by `off` (m), and a fraction `unlike`
-    of the part looks different.
+    """Vision compared the place of a part in two pictures. `off` is the displacement of the part (m), and `unlike` is
+    the fraction of the part that looks different.
     """
 
     part: str
@@ -260,8 +260,8 @@ class CameraStarted(Event, frozen=True, kw_only=True):
 
 
 class CameraBusy(Event, frozen=True, kw_only=True):
-    """The arm stood still for `seconds` (s) because of the camera: `action` is `wait` (for its mechanism) or `digitise`
-    (a picture).
+    """The arm stood still for `seconds` (s) because of the camera. The `action` is `wait` if the arm waited for the
+    camera's mechanism, and `digitise` if it waited for a picture.
     """
 
     action: str
@@ -288,8 +288,8 @@ class OperatorAnswered(Event, frozen=True, kw_only=True):
 
 
 class ExperimentMade(Event, frozen=True, kw_only=True):
-    """A person at the stepper changed the memory of the program (values in m and rad). From then on, the plan alone no
-    longer determines the run.
+    """A person at the stepper changed the memory of the program (values in m and rad). After this event, the plan
+    alone no longer determines the run.
     """
 
     what: str  # kind of value: `saved`, `position`, or another kind of the system
@@ -298,7 +298,7 @@ class ExperimentMade(Event, frozen=True, kw_only=True):
 
 
 class CommandedPeriod(Record, frozen=True, kw_only=True, array_like=True):
-    """What the calling program commanded for one servo period."""
+    """The commands of the calling program for one servo period."""
 
     torque: tuple[float, ...] | None  # of each joint, N m, or N if prismatic; None: the brakes were set
     gap: float  # goal of the finger gap, m
@@ -308,8 +308,8 @@ class CommandedPeriod(Record, frozen=True, kw_only=True, array_like=True):
 
 
 class PeriodsCommanded(Event, frozen=True, kw_only=True):
-    """Between two steps, a controller of the calling program commanded the arm. From then on, the plan alone no longer
-    determines the run.
+    """Between two steps, a controller of the calling program commanded the arm. After this event, the plan alone no
+    longer determines the run.
     """
 
     by: str  # name of the controller
@@ -317,8 +317,8 @@ class PeriodsCommanded(Event, frozen=True, kw_only=True):
 
 
 class LineTyped(Event, frozen=True, kw_only=True):
-    """A person typed a line at the console of a system, for one of its tasks. From then on, the program alone no
-    longer determines the run.
+    """A person typed a line at the console of a system, for one of the system's tasks. After this event, the program
+    alone no longer determines the run.
     """
 
     text: str
@@ -330,8 +330,8 @@ class PanicStopped(Event, frozen=True, kw_only=True):
 
 
 class WentBack(Event, frozen=True, kw_only=True):
-    """All events of the run were undone except the first `events` events. This event occurs only in a journal;
-    a trace leaves out the undone events.
+    """The run went back: only its first `events` events remain, and the later ones were undone. This event occurs only
+    in a journal, because a trace contains no undone events.
     """
 
     events: int
@@ -347,8 +347,8 @@ class UndoOrdered(Event, frozen=True, kw_only=True):
 
 
 class UndoStarted(StepStarted, frozen=True, kw_only=True, omit_defaults=True):
-    """The arm begins to undo a step, or several executed steps at once, such as the rounds of a loop. `steps` is their
-    number.
+    """The arm begins to undo a step, or several executed steps at once, such as the rounds of a loop. `steps` is the
+    number of steps to undo.
     """
 
     steps: int = 1  # executed steps that are undone at once
@@ -361,7 +361,7 @@ class UndoFinished(StepFinished, frozen=True, kw_only=True):
 
 
 class StageUndone(Event, frozen=True, kw_only=True):
-    """All steps of a stage since its last beginning have been undone."""
+    """The arm has undone all steps that were executed since the stage last began."""
 
     stage: str
 

@@ -14,8 +14,8 @@ class Search(Operation, frozen=True, kw_only=True):
     """Start a search with steps of `step` (m) and at most `limit` places. The present place is the first place of the
     search.
 
-    The places lie on a square spiral. If `along` (rad from table x) is given, the places lie on a line in that
-    direction.
+    Without `along`, the places lie on a square spiral. If `along` (rad from table x) is given, the places lie on a
+    line in that direction.
     """
 
     family: ClassVar = "search"
@@ -67,8 +67,8 @@ class Assign(Operation, frozen=True, kw_only=True):
 
 
 class Countdown(Operation, frozen=True, kw_only=True):
-    """Decrement a counter (SOJG). While the counter is positive, the program continues with step `positive`; if
-    `positive` is None, the program ends.
+    """Decrement a counter (SOJG). If the counter is still positive, the program continues with step `positive`, or
+    ends if `positive` is None.
     """
 
     branches: ClassVar = True
@@ -95,7 +95,7 @@ class Save(Operation, frozen=True, kw_only=True):
     only the component of the difference along the finger line (the line through both finger tips).
 
     If the goal already contains a Restore of the difference `name`, the restored shift is part of the new difference.
-    Therefore, a program that saves the difference `name` again and again can follow a place that moves.
+    A program can therefore follow a place that moves, if it saves the same difference repeatedly.
     """
 
     family: ClassVar = "search"
@@ -106,7 +106,7 @@ class Save(Operation, frozen=True, kw_only=True):
 
 
 class Here(Operation, frozen=True, kw_only=True):
-    """Define a position as the present hand pose. If the position belongs to a part, the pose is stored relative to
+    """Give a position the present pose of the hand. If the position belongs to a part, the pose is stored relative to
     the part.
     """
 
@@ -130,8 +130,8 @@ class Wait(Operation, frozen=True, kw_only=True):
 
 
 class Undo(Operation, frozen=True, kw_only=True):
-    """Reverse the stage, and then repeat it. If the stage has already been reversed `times` times since it began,
-    continue with the next step instead.
+    """Reverse the present stage, and then repeat the stage. The program can do this `times` times after a stage has
+    begun. After that, it continues with the next step instead.
     """
 
     bounds: ClassVar = {"times": (1, 100)}

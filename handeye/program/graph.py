@@ -15,7 +15,8 @@ MAX_SEARCHED: Final = 100  # steps
 @dataclass(frozen=True, slots=True)
 class Graph:
     """Steps by number, with their predecessors and successors; the successor None stands for the end of the program.
-    The graph also has the numbers of the steps of each kind of operation, and the reachable steps.
+    For each kind of operation, the graph has the numbers of the steps with this operation. It also has the reachable
+    steps.
     """
 
     steps: Sequence[Step]
@@ -44,18 +45,18 @@ class Graph:
         object.__setattr__(self, "reached", reachable([0] if self.steps else [], onward))
 
     def which(self, *kinds: type[Operation]) -> list[int]:
-        """Return the numbers of the steps with operations of these kinds, in order."""
+        """Return the numbers of the steps whose operation is of one of the given kinds, in order."""
         return sorted(number for kind in kinds for number in self.kinds.get(kind, ()))
 
     def each(self, kind: type[A]) -> Iterator[tuple[int, A]]:
-        """Yield the steps with operations of one kind, in order, each as its number and its operation."""
+        """Yield the number and the operation of each step whose operation is of the given kind, in order."""
         for number in self.kinds.get(kind, ()):
             operation = self.steps[number].operation
             if isinstance(operation, kind):
                 yield number, operation
 
     def at(self, number: int | None, kind: type[A]) -> A | None:
-        """Return the operation of a step if the operation is of this kind, or else None."""
+        """Return the operation of a step, or None if the operation is not of the given kind."""
         operation = None if number is None else self.steps[number].operation
         return operation if isinstance(operation, kind) else None
 
@@ -64,16 +65,17 @@ class Graph:
         return self.which(*(kind for kind in self.kinds if kind.raising))
 
     def after(self, numbers: Iterable[int]) -> set[int]:
-        """Return the steps that can follow these steps, directly or indirectly."""
+        """Return the steps that can follow the given steps, directly or indirectly."""
         return reachable([target for number in numbers for target in self.onward[number]], self.onward)
 
     def before(self, numbers: Iterable[int]) -> set[int]:
-        """Return the steps that can precede these steps, directly or indirectly."""
+        """Return the steps that can precede the given steps, directly or indirectly."""
         return reachable([before for number in numbers for before in self.back[number]], self.back)
 
     def last(self, number: int, *kinds: type[Operation]) -> list[int]:
-        """Return the steps of the given kinds that can be the last of these kinds before step `number`. Only reachable
-        steps count. The list is empty if a path to the given step has no such step, or if the search takes too long.
+        """On every path to step `number`, find the last step of the given kinds, and return all these steps. Only
+        reachable steps count. The list is empty if a path contains no step of these kinds, or if the search takes too
+        long.
         """
         found: list[int] = []
         seen: set[int] = set()
@@ -146,7 +148,7 @@ class Graph:
 
     def loop(self, start: int, known: set[int]) -> set[int]:
         """Return the steps that can be reached from `start`, or an empty set if one of these steps leads into `known`.
-        Adds the reachable steps to the set `known`.
+        In both cases, adds the reachable steps to the set `known`.
         """
         found = reachable([start], self.onward, known)
         met = any(target in known for number in found for target in self.onward[number])

@@ -33,8 +33,8 @@ class HandLoad(NamedTuple):
 
 
 class Guard(Record, frozen=True, kw_only=True, tag_field="guard", tag=lambda name: name.lower()):
-    """Base class of the guards. The class name in lower case is the kind of the guard, and its tag in the plan
-    file.
+    """Base class of the guards. In lower case, the name of a guard's class is the guard's kind, and also the tag of
+    the guard in the plan file.
     """
 
     kind: ClassVar[GuardKind]
@@ -56,7 +56,9 @@ class Guard(Record, frozen=True, kw_only=True, tag_field="guard", tag=lambda nam
 
 
 class Force(Guard, frozen=True, kw_only=True):
-    """Trips when the hand exerts more than this force (N, table axes) in the direction of the force."""
+    """Trips when the hand exerts more than `force` (N, table axes). Only the component in the direction of `force`
+    counts.
+    """
 
     kind: ClassVar = GuardKind.FORCE
     error: ClassVar = errors.NO_FORCE
@@ -86,7 +88,9 @@ class Against(Guard, frozen=True, kw_only=True):
 
 
 class Moment(Guard, frozen=True, kw_only=True):
-    """Trips when the hand exerts more than this moment (N m, table axes) about its tool centre point."""
+    """Trips when the hand exerts more than `moment` (N m, table axes). The moment is taken about the tool centre point
+    of the hand.
+    """
 
     kind: ClassVar = GuardKind.MOMENT
     error: ClassVar = errors.NO_FORCE

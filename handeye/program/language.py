@@ -1,5 +1,5 @@
-"""Languages as values. The ending of a file determines its language, so that the rest of handeye depends on no
-particular language.
+"""Languages as values. The ending of a file determines its language. The rest of handeye uses these values, and
+depends on no particular language.
 """
 
 from abc import ABC, abstractmethod
@@ -55,13 +55,13 @@ class OwnLanguage(ABC):
         return None
 
     def words(self, source: Source, offset: int) -> Sequence[tuple[str, str]]:
-        """Return the words that may stand at an offset, each with its meaning."""
+        """Return the words that are allowed at an offset, each with its meaning."""
         return ()
 
 
 def own_language(file: str) -> OwnLanguage | None:
-    """Return the language of the system whose files have the same ending as this file, or None if the file is a
-    script for a planned program.
+    """Return the language of a file, if a system has a language of its own for files with this ending. Returns None if
+    the file is a script for a planned program.
     """
     entry, ending = entry_of_file(file)
     if entry is None:
@@ -77,7 +77,7 @@ def own_languages() -> Iterator[OwnLanguage]:
 
 
 def language_of(file: PurePath, languages: Mapping[str, Language]) -> Language:
-    """Return the language whose files have the ending of this file. If no language has this ending, return the first
+    """Return the language that the ending of a file determines. If no language has this ending, return the first
     language.
     """
     found = languages.get(file.suffix.lower())

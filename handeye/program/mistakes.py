@@ -29,7 +29,7 @@ class Mistake(Record, frozen=True, kw_only=True):
 
 
 class Mistakes:
-    """The kinds of mistakes of a language. Calling this object makes a diagnostic."""
+    """The kinds of mistakes of a language. To make a diagnostic, call an object of this class."""
 
     def __init__(self, *tables: Mapping[str, Mistake]) -> None:
         self._known = {code: known for table in tables for code, known in table.items()}
@@ -57,7 +57,7 @@ class Mistakes:
 def explained_mistake(
     code: str, known: Mistake, ending: str, check: Callable[[Source], Sequence[Diagnostic]]
 ) -> str:
-    """Return the meaning of a code, with the diagnostic of its example and the cure."""
+    """Explain a code: return its meaning, the diagnostic that its example causes, and the cure."""
     source = Source(name=f"example{ending}", text=known.example)
     shown = next(each for each in check(source) if each.code == code)
     example = known.example.strip().split("\n")

@@ -16,7 +16,7 @@ _GAP: Final[Bounds] = (0.0, 0.2)  # m
 
 
 class Restore(Record, frozen=True, kw_only=True):
-    """A shift of a goal by a saved difference. If `level` is True, the shift is only horizontal."""
+    """Shifts the goal of a motion by a saved difference. If `level` is True, the shift is only horizontal."""
 
     name: str
     level: bool = False  # horizontal components only
@@ -93,12 +93,12 @@ class Change(ArmMotion, frozen=True, kw_only=True):
 
     @property
     def meets(self) -> bool:
-        """True if the motion should make contact: it has guards, or it presses something, or it turns something."""
+        """True if the motion should make contact, because it has guards, presses or turns."""
         return bool(self.guards) or self.press is not None or self.moment is not None
 
     @property
     def complies(self) -> bool:
-        """True if force or moment may shift the hand."""
+        """True if the hand yields to a force or a moment."""
         return any(way is not None for way in (self.press, self.free, self.moment, self.spin))
 
     @property
@@ -190,8 +190,8 @@ class Travel(Operation, frozen=True, kw_only=True):
 
 
 class Height(Operation, frozen=True, kw_only=True):
-    """Check how much higher (m) the hand is after the last motion than it was at the `SAVE` of a difference. Raises
-    error 9 if this height is outside the range.
+    """Compare the hand's height after the last motion with its height at the `SAVE` of a difference. Raises error 9 if
+    the rise (m) is outside the range from `minimum` to `maximum`.
     """
 
     family: ClassVar = "test"

@@ -1,5 +1,5 @@
-"""The base class of all operations, with the values that an operation reads and writes, the errors that it raises,
-and the devices that it needs. Code that uses these properties does not depend on the kinds of operations.
+"""The base class of all operations. Each operation states the values that it reads and writes, the errors that it
+raises, and the devices that it needs. Code that uses only these properties works with every kind of operation.
 """
 
 from collections.abc import Mapping
@@ -17,8 +17,8 @@ A target is a position or a part. `goal` is the goal of the last Move, and `trav
 Family = Literal["motion", "hand", "sight", "test", "search", "other"]
 Device = Literal["hand", "screwdriver", "camera"]
 Fields = Mapping[Kind, tuple[str, ...]]
-"""Fields of an operation whose entries are names of values. The key is the kind of the values. A kind has an empty
-tuple if it has only one value, and this value has no name.
+"""For each kind of values, the fields of an operation that hold names of such values. The tuple is empty for a kind
+that has only one value, because this value has no name.
 """
 
 
@@ -33,8 +33,8 @@ class Use(NamedTuple):
 
 
 class Branch(NamedTuple):
-    """A branch to the step `target` (None for the end of the program). The branch is taken if the last action
-    raised `error`, or while `counter` is positive.
+    """A branch to the step `target` (None for the end of the program). The branch is taken if the last action raised
+    `error`, or if `counter` is positive.
     """
 
     target: int | None
@@ -47,8 +47,8 @@ class Operation(
 ):
     """Base class of the operations. The class name in lower case is the tag in the plan file.
 
-    Each field stands for a property, and its default means that the operation does not have this property. If the plan
-    file lacks the field, the plan therefore has the same meaning as with the default.
+    Each field stands for a property. The default value of a field means that the operation does not have the property.
+    The plan file can therefore leave out fields that have their default value.
     """
 
     family: ClassVar[Family] = "other"
@@ -81,7 +81,7 @@ class Operation(
 
     @property
     def complies(self) -> bool:
-        """True if force or moment may shift the hand."""
+        """True if the hand yields to a force or a moment."""
         return False
 
     @property
@@ -111,7 +111,7 @@ class Operation(
 
     @property
     def undoes(self) -> int:
-        """Greatest number of times that the operation reverses and repeats its stage."""
+        """How often, at most, the operation reverses and repeats its stage."""
         return 0
 
     @property

@@ -1,4 +1,5 @@
-"""A checked program: labelled operations with symbolic goals, in SI units, independent of language and arm.
+"""A checked program. It consists of labelled operations, whose goals are names and whose numbers are in SI units. It
+is independent of the language and of the arm.
 
 Every arm language compiles to a program. The program is the input of the planner. The plan consists of the same
 operations, together with planned motions.
@@ -155,7 +156,9 @@ class Program(Record, frozen=True, kw_only=True, omit_defaults=True):
 
     @property
     def labels(self) -> dict[str, list[int]]:
-        """For each label, the numbers of its steps. A label in a macro has one step for each call of the macro."""
+        """For each label, the numbers of the steps that have this label. A label in a macro marks one step in each
+        call of the macro.
+        """
         found: dict[str, list[int]] = {}
         for number, step in enumerate(self.steps):
             for label in step.labels:
@@ -178,5 +181,5 @@ class Program(Record, frozen=True, kw_only=True, omit_defaults=True):
         return any(step.operation.feels for step in self.steps)
 
     def written(self, kind: Kind) -> set[str]:
-        """Return the names of one kind that the steps write."""
+        """Return the names of all values of one kind that the steps write."""
         return {use.name for step in self.steps for use in step.operation.writes if use.kind == kind}

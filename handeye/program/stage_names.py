@@ -25,8 +25,9 @@ def stage_index(text: str, stages: Sequence[str]) -> int:
 
 
 def stage_called(text: str, stages: Sequence[str]) -> int | None:
-    """Find the only stage called `text`; or else, the only stage whose name begins with it; or else, the only stage
-    whose name contains it. Returns the index of the stage, or None if no stage fits.
+    """Find the stage that `text` means. A stage with exactly this name has precedence. Next comes a stage whose name
+    begins with the text, and then a stage whose name contains it. Returns the index of the stage, or None if no stage
+    matches. Raises BadArgument if several stages match equally well.
     """
     wanted = text.strip().casefold()
     names = [name.casefold() for name in stages]

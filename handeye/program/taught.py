@@ -1,5 +1,5 @@
-"""Taught files (TOML). A taught file contains the parts, the fixtures, the held objects, and the hand positions that
-were stored by moving the arm.
+"""Taught files (TOML). A taught file contains hand positions, which a user stored by moving the arm. It also contains
+the parts, the fixtures and the held objects.
 
 [positions.PIN]
 at = [18, 44, 3, 0, 90, 0]         # x, y, z in inches, angles O, A, T in degrees
@@ -183,9 +183,7 @@ _KINDS: Final = {
 
 
 def unfit(error: msgspec.ValidationError) -> str:
-    """Write the part of an error sentence that names the mismatch and its place. Both are taken from the message of
-    `msgspec`.
-    """
+    """Write the part of an error sentence that names the mismatch and its place, as in the message of `msgspec`."""
     said, _, where = str(error).partition(" - at `$")
     where = where.rstrip("`").lstrip(".")
     about = f"{where}: " if where else ""

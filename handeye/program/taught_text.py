@@ -1,7 +1,7 @@
 """Edits a position in the text of a taught file, and leaves the rest of the text unchanged.
 
 The usual forms are supported: `A = { at = [...] }` on one line under `[positions]`, and `at = [...]` under
-`[positions.A]`. The new text is parsed again, and a change that affects other entries is refused.
+`[positions.A]`. The new text is parsed again. If other entries have changed, the edit is refused.
 """
 
 import re
@@ -58,7 +58,9 @@ def _line(name: str, position: Position) -> str:
 
 
 def _added(text: str, name: str, position: Position) -> str:
-    """Return the text with a new line after the last entry of the table, or at the end of the text."""
+    """Return the text with a new line for the position: after the last entry of `[positions]`, or at the end of the
+    text.
+    """
     header, line_end = _HEADER.search(text), "\r\n" if "\r\n" in text else "\n"
     if header is None:
         gap = "" if not text else line_end if text.endswith("\n") else 2 * line_end
@@ -74,8 +76,9 @@ def _added(text: str, name: str, position: Position) -> str:
 
 
 def _replaced(text: str, name: str, position: Position) -> str:
-    """Return the text with new numbers for the position `name`: the numbers of `position`. The text gives the old
-    numbers in a line or in a table."""
+    """Return the text with the numbers of `position` in place of the old numbers of the entry `name`. The entry is a
+    line or a table.
+    """
     key = rf"[\"']?{re.escape(name)}[\"']?"
     line = re.compile(rf"^[ \t]*(?:positions\s*\.\s*)?{key}[ \t]*=[ \t]*\{{.*$", re.MULTILINE)
     table = re.compile(rf"^[ \t]*\[\s*positions\s*\.\s*{key}\s*\].*(?:\n(?![ \t]*\[).*)*", re.MULTILINE)

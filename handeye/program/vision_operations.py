@@ -8,7 +8,7 @@ from handeye.program.operation import Operation, action
 
 
 class Lens(Operation, frozen=True, kw_only=True):
-    """Turn the lens turret to a lens, given by its focal length (m)."""
+    """Turn the lens turret to the lens with a given focal length (m)."""
 
     family: ClassVar = "sight"
     needs: ClassVar = "camera"
@@ -20,7 +20,7 @@ class Lens(Operation, frozen=True, kw_only=True):
 
 
 class Aim(Operation, frozen=True, kw_only=True):
-    """Turn the camera to a position or part and focus there."""
+    """Turn the camera to a position or a part, and focus it on this position or part."""
 
     family: ClassVar = "sight"
     needs: ClassVar = "camera"

@@ -1,6 +1,4 @@
-"""The world model: the planned pose of each part and, after vision or touch has measured the part, its measured
-pose.
-"""
+"""The world model: the planned pose of each part and, if vision or touch has measured the part, the measured pose."""
 
 from dataclasses import dataclass, field
 
@@ -40,7 +38,7 @@ class WorldModel:
 
     @classmethod
     def of(cls, program: Program, state: WorldState | None = None) -> "WorldModel":
-        """Make the model of a program, with the given differences from the plan; by default, there are no
+        """Make the model of a program. `state` gives the differences from the plan. By default, there are no
         differences.
         """
         return cls(parts=program.parts, positions=program.positions, state=state or WorldState())
@@ -56,7 +54,9 @@ class WorldModel:
         return planned_pose(self.parts[name]) if measured is None else measured
 
     def position(self, name: str) -> Pose:
-        """Return the pose `X_WT` of a hand position, using the present pose of its part."""
+        """Return the pose `X_WT` of a hand position. It is computed from the present pose of the part to which the
+        position belongs.
+        """
         position = self.state.moved.get(name) or self.positions[name]
         X_PT = hand(*position.at)
         return X_PT if position.of is None else self.part(position.of) @ X_PT
@@ -66,7 +66,7 @@ class WorldModel:
         return Position(at=rounded_place(X_WT if part is None else inverse(self.part(part)) @ X_WT), of=part)
 
     def planned_position(self, name: str) -> Pose:
-        """Return the pose `X_WT` of a hand position, using only planned poses."""
+        """Return the planned pose `X_WT` of a hand position. It is computed from planned poses only."""
         position = self.positions[name]
         X_PT = hand(*position.at)
         return X_PT if position.of is None else planned_pose(self.parts[position.of]) @ X_PT

@@ -1,4 +1,6 @@
-"""Writes a proof in words: a paragraph for each finding, and a diagnostic for each finding that is not shown."""
+"""Writes a proof in words: a paragraph for each finding that the program shows to hold, and a diagnostic for each
+finding that it does not.
+"""
 
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import groupby
@@ -64,7 +66,7 @@ def _paragraph(proof: Proof, finding: FindingProof, program: Program) -> str:
 
 
 def said_of(says: str, claims: Sequence[ClaimProof]) -> str:
-    """Return one clause that states several claims, which differ only in their places."""
+    """Return one clause that states several claims. The claims differ only in their places."""
     places = [claim.where for claim in claims if claim.where]
     first = {place.split(" ")[0] for place in places}
     if len(places) > 1 and len(first) == 1 and all(place.count(" ") == 1 for place in places):
@@ -105,7 +107,7 @@ def _capital(text: str) -> str:
 
 
 def unproved(proof: Proof, program: Program) -> list[Diagnostic]:
-    """Return a diagnostic for each finding that is not shown on every path to the end."""
+    """Return a diagnostic for each finding that some path to the end does not show to hold."""
     source = program.whole
     if not proof.ends:
         span = _span(source, program.steps[-1]) if program.steps else Span(start=0, end=0)

@@ -1,4 +1,4 @@
-"""Draws a proof as a flow: the steps that show something, and the paths between them."""
+"""Draws a proof as a flow: the steps on which the proof rests, and the paths between them."""
 
 from collections.abc import Container
 from dataclasses import replace
@@ -16,8 +16,8 @@ WIDTH: Final = 43  # characters of a note
 def proof_flow(proof: Proof, plan: Plan) -> Flow:
     """Return a flow chart with only the steps on which a proof rests. An edge of the flow chart stands for all paths
     from one of these steps to the next. The notes of a step name the findings that rest on this step. If some path to
-    the end does not show a claim, the chart also contains the last step from which the path could still have led to
-    showing the claim.
+    the end does not show that a claim is true, the chart also contains the last step at which this path could have
+    branched off to a step that shows it.
     """
     notes, graph = _notes(proof), Graph(plan.program.steps)
     whole = flow(plan)
@@ -27,8 +27,8 @@ def proof_flow(proof: Proof, plan: Plan) -> Flow:
 
 
 def _notes(proof: Proof) -> dict[int, list[str]]:
-    """Return the notes on each drawn step. Some notes name the findings that rest on the step. Other notes name the
-    findings that a path does not show because the path leaves the step by a certain edge.
+    """Return the notes on each drawn step. Some notes name the findings that rest on the step. Other notes name
+    findings that are not shown: beyond this step, a path to the end passes no step that would show them.
     """
     found: dict[int, dict[str, None]] = {}
     for finding in proof.findings:
@@ -49,7 +49,7 @@ def _noted(node: Node, names: list[str]) -> Node:
 
 
 def _next(graph: Graph, start: int, drawn: Container[int]) -> list[FlowEdge]:
-    """Return the edges from a drawn step to the drawn steps that can follow it."""
+    """Return the edges from a drawn step to the drawn steps that can come next."""
     ends: dict[int | None, None] = {}
     seen: set[int] = set()
     waiting = [start]

@@ -1,8 +1,8 @@
 """Describes kinds of steps that would notice a wrong state of the work. A kind is given by the place of the step, by
 what the step senses, and by the limits of the sensed value.
 
-A kind of evidence describes a step but never names one. The kind therefore applies to every program of a task. It does
-not matter how a program names its labels and macros.
+A kind of evidence describes steps, but names no step of a program. The kind therefore applies to every program of a
+task. It does not matter how a program names its labels and macros.
 """
 
 import math
@@ -92,7 +92,7 @@ def every(answers: list[Answer]) -> Answer:
 
 
 def among(answers: list[Answer]) -> Answer:
-    """Combine the answers for several possible situations, one of which is the true situation."""
+    """Combine the answers for several situations. One of these situations is the true one, but we do not know which."""
     if answers and all(answer == "yes" for answer in answers):
         return "yes"
     return "no" if all(answer == "no" for answer in answers) else "maybe"
@@ -108,8 +108,8 @@ class Evidence(Record, frozen=True, kw_only=True, tag=True):
         raise NotImplementedError
 
     def failed(self, passed: Passed) -> Answer:
-        """Say whether an executed step disproves what this kind of evidence shows. Such a step is of this kind, but
-        had another outcome.
+        """Say whether an executed step disproves what this kind of evidence shows. It does if the step is of this
+        kind, but did not succeed.
         """
         if passed.outcome in (None, SUCCESS):
             return "no"
@@ -135,8 +135,8 @@ def _aligned(one: Vector3, other: Vector3) -> bool:
 
 
 class Contact(Record, frozen=True, kw_only=True):
-    """A straight motion that a contact has ended: where it began, its direction, and the force of its guard (N). If
-    `torque` (N m) is given, this torque of the screwdriver has ended the motion, not a force.
+    """A straight motion that ended on contact: where the motion began, its direction, and the force (N) of the guard
+    that ended it. If `torque` (N m) is given, a torque of the screwdriver ended the motion instead.
     """
 
     where: Region
@@ -154,7 +154,7 @@ class Contact(Record, frozen=True, kw_only=True):
         return self.where.meets(situation.start)
 
     def describes(self, operation: Operation) -> bool:
-        """Return True if an operation is a motion of this kind, wherever the hand is."""
+        """Return True if an operation is a motion of this kind. The place of the hand does not matter."""
         if not isinstance(operation, Change) or not _aligned(operation.displacement, self.along):
             return False
         if self.torque is not None:
@@ -168,8 +168,8 @@ class Contact(Record, frozen=True, kw_only=True):
 
 
 class HeightWithin(Evidence, frozen=True, kw_only=True):
-    """A HEIGHT after the contact `of`. It measures from the height of the contact `over`. The range (m) that this
-    HEIGHT allows lies within `limits`.
+    """A HEIGHT that compares the heights of the hand at two contacts. It follows the contact `of`, and measures the
+    height from that at the contact `over`. The range (m) that this HEIGHT allows lies within `limits`.
     """
 
     operations: ClassVar = (Height,)
@@ -222,7 +222,7 @@ class Contacted(Evidence, frozen=True, kw_only=True):
 
 
 class FreeTurn(Evidence, frozen=True, kw_only=True):
-    """A turn about an axis, through at least a given arc, against a force that stayed below a given limit (N).
+    """A turn about an axis, through at least a given arc, in which the resisting force stayed below a given limit (N).
 
     The arc is given by its ends (rad from table x, counter-clockwise) and by the direction of the turn: 1 for
     counter-clockwise, -1 for clockwise.
@@ -290,8 +290,8 @@ class Taken(Evidence, frozen=True, kw_only=True):
 
 
 class Compared(Evidence, frozen=True, kw_only=True):
-    """A comparison of two pictures of a part at a place (m, table frame): an INSPECT or a MATCH. `before` and `after`
-    are the names of the two pictures; the prover fills in these names.
+    """An INSPECT or a MATCH, which compares two pictures of a part. The part is in the region `part` (m, table frame).
+    `before` and `after` are the names of the two pictures; the prover fills in these names.
     """
 
     operations: ClassVar = (Inspect, Match)

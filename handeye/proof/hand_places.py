@@ -1,8 +1,8 @@
 """Finds where the hand can be at each node, as far as the program determines the place. The place is the planned goal
 of the last MOVE, plus the displacements of the motions after that MOVE.
 
-Corrections that are measured during a run (RESTORE, and the offset of a search) are left out, because these
-corrections only lead the hand to the true place of the position.
+RESTORE, and the offset of a search, correct the place by values that are measured during a run. These corrections are
+left out, because they only lead the hand to the true place of the named position.
 """
 
 import math
@@ -22,7 +22,7 @@ ROUNDS: Final = 4  # of places that HERE defines from places that HERE has defin
 
 
 class Block(NamedTuple):
-    """The least and the greatest coordinates of the hand in the table frame (m)."""
+    """A block in which the hand can be, given by its least and its greatest coordinates in the table frame (m)."""
 
     low: Vector3
     high: Vector3

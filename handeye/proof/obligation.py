@@ -1,4 +1,4 @@
-"""Obligations: what a task requires every program to show, for each finding of the task's referee."""
+"""Obligations of a task. For each finding of the task's referee, an obligation says what every program must show."""
 
 from msgspec.structs import replace
 

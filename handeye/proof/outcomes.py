@@ -1,8 +1,8 @@
 """The paths through a program, as a graph in which every action has one edge for each outcome.
 
-An action either succeeds or raises one of its errors. After a raised error, the path continues, as in the executor, at
-the tests that follow the action. If one of these tests is for the raised error, the path continues at the target of
-this test. Otherwise, the arm stops. A call to the operator is a stop, too.
+An action either succeeds or raises one of its errors. When an action raises an error, the path continues at the tests
+that follow the action, as the executor does. If one of these tests is for the raised error, the path continues at the
+target of this test. Otherwise, the arm stops. A call to the operator is a stop, too.
 """
 
 from collections.abc import Sequence
@@ -24,8 +24,8 @@ class Edge(NamedTuple):
     """An edge to another node.
 
     `outcome` is the outcome of the action at the start of the edge: SUCCESS, or the number of the raised error.
-    `outcome` is None if the step is not an action. `taken` is True if a test found its error, or if a counter was still
-    positive.
+    `outcome` is None if the step is not an action. `taken` is True if the step is a test and its error was raised, or
+    if the step counts down and the counter was still positive.
     """
 
     to: int
@@ -127,9 +127,7 @@ def _onward(steps: Sequence[Step], number: int, error: int) -> list[Onward]:
 
 
 def _goes_on(steps: Sequence[Step], number: int | None, error: int) -> bool:
-    """Return True if the program continues at a step while this error is pending, or False if the program stops the
-    arm.
-    """
+    """Return True if the program continues at step `number` while `error` is pending, or False if the arm stops."""
     while error and number is not None:
         operation = steps[number].operation
         if not isinstance(operation, Test):

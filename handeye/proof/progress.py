@@ -1,4 +1,6 @@
-"""How far a claim is shown at each node: the number of phases of the claim that are shown on every path to the node."""
+"""Finds how far the program has shown a claim at each node: how many phases of the claim every path to the node
+shows.
+"""
 
 from dataclasses import dataclass, field
 from heapq import heappop, heappush
@@ -18,9 +20,9 @@ UNREACHED: Final = 127
 
 @dataclass(frozen=True, slots=True)
 class Effects:
-    """What the steps of a program do to a claim. With `generous`, a step whose place is not known counts as showing
-    the claim, and never as undoing it. Without `generous`, a step whose place is not known counts as undoing the
-    claim, and never as showing it.
+    """The effects of a program's steps on a claim: which steps show the claim, and which undo it. With `generous`, a
+    step whose place is not known counts as showing the claim, and never as undoing it. Without `generous`, a step
+    whose place is not known counts as undoing the claim, and never as showing it.
     """
 
     claim: Claim

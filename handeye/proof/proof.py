@@ -1,5 +1,5 @@
-"""Proves that a program meets the obligations of a task. If an obligation cannot be proved, the proof finds a path
-through the program that avoids the obligation.
+"""Proves that a program meets the obligations of a task. If an obligation cannot be proved, the proof contains a path
+through the program that does not meet the obligation.
 """
 
 from collections.abc import Iterable, Sequence
@@ -43,7 +43,7 @@ class ClaimProof(Record, frozen=True, kw_only=True):
     claim. None if there is no such step.
     """
     undone: int | None = None
-    """Index, in the path, of the last step that undoes what was shown of the claim; None if no step does so."""
+    """Index, in the path, of the last step that undoes a shown phase of the claim; None if no step does so."""
     unknown: tuple[int, ...] = ()  # steps whose place the program does not fix
     too_many: bool = False  # True if the search for a path was given up because it became too large
 
@@ -209,8 +209,8 @@ class _Prover:
         return WayStep(step=number, raised=edge.outcome or None, taken=edge.taken if branches else None)
 
     def _leaves(self, form: Effects, way: list[Leg]) -> int | None:
-        """Find, on a path, the last node from which another path can still show the last phase of the claim. Return the
-        number of the leg that leaves this node.
+        """On a path, find the last node at which the program can still branch off to a step that shows the last phase
+        of the claim. Return the number of the leg that leaves this node.
         """
         last = {key for key, phase in form.showing.items() if phase == form.whole - 1}
         able = {node for node, _ in last}
@@ -224,7 +224,7 @@ class _Prover:
 
 
 def _undone(form: Effects, way: list[Leg]) -> int | None:
-    """Return the index of the last leg that undoes a phase of a claim that an earlier leg has shown."""
+    """Return the index of the last leg that undoes a phase of a claim after an earlier leg has shown this phase."""
     found, shown = None, form.first
     for index, leg in enumerate(way):
         table = form.tables.get((leg.node, leg.edge))

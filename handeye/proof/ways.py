@@ -1,5 +1,5 @@
-"""Searches for a path that reaches the end without showing a claim. The search follows the values of counters exactly.
-If the program has an UNDO, the search ignores the values of counters, because a reversal restores them.
+"""Searches for a path that reaches the end without showing a claim. If the program has no UNDO, the search follows the
+values of counters exactly. If it has one, the search ignores these values, because a reversal restores them.
 """
 
 from collections import deque

@@ -8,7 +8,7 @@ from handeye.report.recorded import RecordedRun
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Animation:
-    """The scene of a run and the tracks of its bodies for the player, compressed."""
+    """Compressed data for the player: the scene of a run, and the tracks of the bodies in the scene."""
 
     scene: bytes
     tracks: bytes

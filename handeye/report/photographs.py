@@ -52,7 +52,7 @@ SMALL: Final = _PrintSize(width=480, height=360, finer=1, shadow=2048)
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _PhotographRequest:
-    """What a photograph should show: the time, the view, and the caption."""
+    """A request for a photograph: the time, the view, and the caption."""
 
     time: float  # s since the run began
     view: str | Near
@@ -90,8 +90,8 @@ def _leading(run: RecordedRun, outcome: Outcome) -> Photograph:
 
 
 def _leading_view(run: RecordedRun, outcome: Outcome) -> str | Near:
-    """Return the view of the main photograph: the hand if the program did not end; the work if the referee
-    judged it; the whole cell in all other cases.
+    """Return the view of the main photograph. The view shows the hand if the program did not end, and the work if the
+    referee judged the work. In all other cases, it shows the whole cell.
     """
     if not outcome.ended:
         return _at_hand(run, outcome.time)
@@ -101,7 +101,7 @@ def _leading_view(run: RecordedRun, outcome: Outcome) -> str | Near:
 
 
 def _left(picture: bytes, missing: Photograph) -> Photograph:
-    """Return the picture that the run saved at its end, to replace a photograph that could not be taken."""
+    """Replace the photograph `missing`, which could not be taken, by the picture that the run saved at its end."""
     points = cv2.imdecode(np.frombuffer(picture, dtype=np.uint8), cv2.IMREAD_COLOR_RGB)
     if points is None:
         return missing
@@ -116,8 +116,8 @@ def _of_stages(run: RecordedRun) -> tuple[Photograph, ...]:
 
 
 def _of_stage(run: RecordedRun, number: int, stage: Stage) -> _PhotographRequest:
-    """Choose the moment of a stage to photograph: the last time that a guard tripped, or, if none tripped, the end of
-    the stage.
+    """Choose the moment of a stage to photograph. This is the last moment at which a guard tripped. If no guard
+    tripped, it is the end of the stage.
     """
     trips = [
         event.time
@@ -137,7 +137,9 @@ def _room(run: RecordedRun) -> str:
 
 
 def _at_hand(run: RecordedRun, time: float) -> str | Near:
-    """Return a close view of the hand, at its position after the last step that ended before a time (s)."""
+    """Return a close view of the hand at a time (s). The view is centred on the position of the hand after the last
+    step that ended before this time.
+    """
     ended = [
         event.hand
         for event in run.trace.events

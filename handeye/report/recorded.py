@@ -55,7 +55,9 @@ class RecordedRun:
 
 
 def check_scene(run: RecordedRun) -> None:
-    """Raise InvalidInput if a body that moved in the run is missing from this installation's scene of the task."""
+    """Raise InvalidInput if a body that moved in the run is missing from the task's scene in this installation of
+    handeye.
+    """
     scene = run.trace.scene
     there = {scene.body(number).name for number in range(scene.nbody)}
     for begin in run.trace.times[:1]:

@@ -11,8 +11,8 @@ from handeye.trace.sentences import renderer_name
 
 
 def cautions(runner: Runner, *, judged: bool) -> Iterator[str]:
-    """Yield sentences on how the conditions of a resumed run differ from the conditions at the start of the run, and
-    on the parts of the run's state that could not be saved.
+    """Yield a sentence for each circumstance that has changed since the run began, such as the renderer or a version.
+    A further sentence says so if the camera calibration could not be saved.
     """
     if runner.system.unkept is not None:
         yield f"the camera calibration was not kept for other runs: {runner.system.unkept}"
@@ -34,8 +34,9 @@ def cautions(runner: Runner, *, judged: bool) -> Iterator[str]:
 
 
 def losses(folder: RunFolder, runner: Runner) -> Iterator[str]:
-    """Yield sentences on the files that the folder of a resumed run has lost, and on files that cannot be
-    protected from other commands."""
+    """Yield sentences on the damage to the folder of a resumed run: a lost trace, or a lost event list. If other
+    commands may also write to the folder during the run, a sentence says so.
+    """
     if folder.unlocked:
         yield unguarded(folder.path, folder.unlocked)
     if folder.lost:

@@ -51,7 +51,7 @@ def told(exhibit: ExportedState) -> dict[str, str]:
 
 
 def shows(exhibit: ExportedState) -> str:
-    """Say what an export shows, as part of a sentence."""
+    """Return the part of a sentence that says what an export shows."""
     world = f"the world of {exhibit.world}"
     if exhibit.moment == "drawn":
         return f"{world} at its start"

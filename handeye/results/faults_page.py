@@ -1,5 +1,6 @@
-"""Shows the faults of a task and the expected outcome of each, as a page for the terminal or as one JSON
-object."""
+"""Writes a page for the terminal, or one JSON object, with the faults of a task and the expected outcome of each
+fault.
+"""
 
 import re
 from collections.abc import Sequence
@@ -39,7 +40,7 @@ class FaultsReport(msgspec.Struct, frozen=True, kw_only=True):
 
 
 def report(catalogue: Catalogue, kinds: Sequence[FaultKind]) -> FaultsReport:
-    """Make the report on these faults of a catalogue."""
+    """Make the report on the given faults of a catalogue."""
     return FaultsReport(faults=tuple(_reported(kind, catalogue) for kind in kinds))
 
 
@@ -82,7 +83,7 @@ def _reported(kind: FaultKind, catalogue: Catalogue) -> FaultReport:
 
 
 def _must(expected: ExpectedDetection) -> str:
-    """Say in a sentence how a fault must be detected."""
+    """Return a sentence that says how a fault must be detected."""
     errors = " or ".join(f"{number} ({ERRORS[number]})" for number in expected.errors)
     ways = [
         *(["before the first stage"] if expected.at_setup else []),

@@ -45,11 +45,11 @@ def finished(
     referee: Referee | None = None,
     folder: RunFolder | None = None,
 ) -> Result:
-    """End the run if it cannot continue; a run that has only paused can continue. Then write the pictures and the
+    """End the run, unless it has only paused and can continue. Then write the pictures and the
     result of the run to its folder. Returns the result.
 
-    The result is written last, so if it exists, all other files exist too. Raises InvalidInput if a file cannot
-    be written.
+    The result is written last. A folder with a result therefore contains all other files, too. Raises InvalidInput if
+    a file cannot be written.
     """
     if pause.kind != "break":
         runner.finish()

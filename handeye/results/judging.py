@@ -16,8 +16,8 @@ Limits = Mapping[str, float]  # Limits of findings by their names, each in the u
 
 def findings(runner: Runner, pause: Pause, referee: Referee | None = None) -> Findings:
     """Return the findings of a referee. If `referee` is None, the task's referee judges the run with the limits of the
-    run. Before the end of the program, there are findings only if the program has stopped and the task's referee also
-    measures unfinished work.
+    run. If the program has not ended, there are findings only under two conditions: the program has stopped, and the
+    task's referee also measures unfinished work.
 
     If the arm has undone all its work, the findings say whether all parts are back in their places, and whether
     the taught positions are unchanged.
@@ -38,8 +38,8 @@ def findings_so_far(runner: Runner) -> Findings:
 
 
 def findings_after(runner: Runner, done: int) -> Findings:
-    """Return the findings of the task's referee on the present state of the work, but only those findings that must
-    hold after `done` stages of the task's own program.
+    """Return those findings of the task's referee that must hold after `done` stages of the task's own program. The
+    findings are on the present state of the work.
     """
     task = runner.task
     found = {
@@ -51,7 +51,7 @@ def findings_after(runner: Runner, done: int) -> Findings:
 
 
 def checked_findings(referee: str, findings: object) -> Findings:
-    """Check what a caller's own referee returned. Raises InvalidInput if the returned value is not a dictionary from
+    """Check the value that a caller's own referee returned. Raises InvalidInput if the value is not a dictionary from
     names to findings.
     """
     if not isinstance(findings, Mapping) or not all(
@@ -64,8 +64,8 @@ def checked_findings(referee: str, findings: object) -> Findings:
 
 
 def checked_limits(limits: Limits) -> dict[str, float]:
-    """Return the limits as floats. Raises InvalidInput if a limit is not a number, or if its key is not the name of a
-    finding.
+    """Return the limits as floats. Raises InvalidInput if a limit is not a number, or if a key of `limits` is not the
+    name of a finding.
     """
     checked: dict[str, float] = {}
     for name, limit in limits.items():

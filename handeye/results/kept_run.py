@@ -70,7 +70,9 @@ def _readable_events(path: Path) -> list[AnyEvent]:
 
 
 def _belongs(result: Result, events: Sequence[AnyEvent]) -> bool:
-    """Return True if `result` and `events` can belong to the same run: their program, task and world are equal."""
+    """Return True if `result` and `events` have the same program, task and world, so that they can belong to the same
+    run.
+    """
     begun = next((event for event in events if isinstance(event, RunStarted)), None)
     return begun is None or (
         (result.program, result.task, result.world, result.seed)
@@ -143,7 +145,7 @@ def _so_far(path: Path, events: Sequence[AnyEvent], faults: Sequence[str]) -> Ke
 
 
 def _host(path: Path) -> tuple[HostSeconds, list[str]]:
-    """Return the recorded host time of a run, and the flaws of that record."""
+    """Return the recorded host time of a run, and the flaws that were found in the recording of the host time."""
     try:
         return read_host_seconds(path / HOST) or HostSeconds(), []
     except InvalidInput as fault:

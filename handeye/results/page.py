@@ -45,7 +45,9 @@ def page(result: Result) -> RenderableType:
 
 
 def short_page(result: Result) -> RenderableType:
-    """Return the result in short: the verdict, and one line each on stages, time, referee and computer."""
+    """Return the result in short: the verdict, a line on the stages, a line on the time, a line on the referee, and a
+    line on the computer.
+    """
     result = printable(result)
     table = Table(box=None, show_header=False, pad_edge=False)
     table.add_column("", style="dim")
@@ -96,8 +98,8 @@ def told_faults(result: Result) -> Iterator[str]:
 
 
 def printable(result: Result) -> Result:
-    """Return a copy of the result in which visible signs replace the control characters of all texts. No control
-    character then reaches the terminal.
+    """Return a copy of the result whose texts show each control character as a visible sign. No control character of
+    the result then reaches the terminal.
     """
 
     def made(value: object) -> object:
@@ -201,8 +203,9 @@ def clock(seconds: float) -> str:
 
 
 def referee(result: Result) -> Table:
-    """Return a table of the referee's measurements on the finished work, and on the parts after the work was
-    undone."""
+    """Return a table of the referee's measurements. The referee measures the finished work or, if the arm has undone
+    the work, the parts.
+    """
     table = Table(box=None, pad_edge=False, header_style="bold")
     table.add_column("")
     table.add_column("referee")

@@ -9,7 +9,7 @@ from handeye.runs.advance import AnyStop, Pause
 
 
 def pause_sentence(pause: Pause) -> str:
-    """Say why a run pauses, in a sentence without a full stop."""
+    """Return a sentence, without a full stop, that says why a run pauses."""
     if pause.met is not None:
         return _met(pause.met)
     if pause.kind == "panic":

@@ -1,5 +1,5 @@
-"""Writes the pictures in a run's folder: the pictures that the program took, with the detected features, and
-photographs of the finished work.
+"""Writes the pictures in a run's folder. The folder has each picture that the program took, with the detected features
+drawn over it, and photographs of the finished work.
 """
 
 from contextlib import suppress

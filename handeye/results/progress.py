@@ -60,7 +60,7 @@ class Progress(Observer):
 
     @contextmanager
     def aside(self) -> Iterator[None]:
-        """Hide the progress bar while this context is open, so that the operator can be asked."""
+        """Hide the progress bar while this context is open, so that the program can ask the operator."""
         shown = self._bar.live.is_started
         self._bar.stop()
         try:
@@ -77,7 +77,7 @@ class Progress(Observer):
             self._line("", "calibrating the camera")
 
     def goes_on(self, stage: str) -> None:
-        """Continue the bar in the middle of a stage, because the run was resumed."""
+        """Begin the bar of a resumed run in the middle of the stage."""
         number = self._stages.index(stage)
         self._bar.update(
             self._task, description=escape(stage), text="", completed=number, total=len(self._stages)

@@ -24,8 +24,8 @@ def recorded_run(run: Path, trace: Trace, *, whole: bool = True) -> RecordedRun:
 
 
 def _result(run: Path) -> tuple[Result | None, tuple[str, ...]]:
-    """Return two values: the result in the folder of a run (None if the folder has no usable result), and the flaws of
-    the result's file.
+    """Return the result in the folder of a run, and the flaws of the result's file. The result is None if the folder
+    has no usable result.
     """
     if not (run / RESULT).is_file():
         return None, ()

@@ -37,7 +37,8 @@ class LegResult(Record, frozen=True, kw_only=True):
 
 
 class Timing(Record, frozen=True, kw_only=True):
-    """Simulated and computing times of a run. No field mixes the two. The working phase is the execution of the plan.
+    """Simulated and computing times of a run. Each field has either simulated time or computing time. The working
+    phase is the execution of the plan.
 
     Runs of the same plan in the same world have equal simulated times. Fields that end in `_cpu_s` (CPU seconds) or
     `_wall_s` (wall-clock seconds) are computing times, which differ from run to run. For a resumed run, computing
@@ -75,7 +76,7 @@ class Timing(Record, frozen=True, kw_only=True):
 
 
 class Check(Record, frozen=True, kw_only=True):
-    """A finding of the referee in the form in which a result stores it: a `Finding` with a sentence."""
+    """A finding of the referee as it is stored in a result. Unlike a `Finding`, it includes a sentence."""
 
     ok: bool
     subject: str
@@ -114,8 +115,8 @@ class Check(Record, frozen=True, kw_only=True):
         return f"{self.sentence}: {self.value:.3g}"
 
     def limited(self, limit: float) -> "Check":
-        """Return a copy of the finding with `limit` instead of its own limit, in the unit of the finding. If the value
-        is beyond `limit`, the referee rejects the work.
+        """Return a copy of the finding with another limit. `limit` is in the unit of the finding. If the value is
+        beyond `limit`, the copy makes the referee reject the work.
         """
         facts = {name: getattr(self, name) for name in self.__struct_fields__ if name != "sentence"}
         return Check.of(Finding(**facts).limited(limit))
@@ -239,7 +240,9 @@ def read_result(path: Path) -> Result:
 
 
 def restore_figures(findings: Any) -> None:
-    """Replace null by NaN in the figures of findings. In JSON, null stands for a value that is not finite."""
+    """Replace null by NaN in the figures of findings. JSON cannot store values that are not finite, so a result has
+    null instead.
+    """
     for check in findings.values() if isinstance(findings, dict) else ():
         for name in ("value", "limit"):
             if isinstance(check, dict) and name in check and check[name] is None:

@@ -160,8 +160,8 @@ def timing(events: Sequence[AnyEvent], clock: float, host: HostSeconds) -> Timin
 
 
 def overlapped(events: Iterable[AnyEvent], clock: float) -> float:
-    """Return for how many seconds, of those until the time `clock` (s), the camera's mechanism was busy and the arm
-    did not wait for the mechanism.
+    """Return the time (s) during which the camera's mechanism was busy while the arm did not wait for the mechanism.
+    Only the time before `clock` (s) counts.
     """
     ready = busy = 0.0
     for event in events:

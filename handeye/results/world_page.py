@@ -1,4 +1,4 @@
-"""Shows the quantities of a world as a page for the terminal or as one JSON object."""
+"""Writes a page for the terminal, or one JSON object, with the quantities of a world."""
 
 from collections.abc import Iterator
 from itertools import groupby

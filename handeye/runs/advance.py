@@ -1,5 +1,5 @@
-"""Advances a run step by step until it ends or a stop condition pauses it. Gives the run's observers the states that
-must be kept.
+"""Advances a run step by step until it ends or a stop condition pauses it. The observers of the run receive each state
+that must be kept.
 """
 
 from collections.abc import Callable, Sequence
@@ -26,7 +26,7 @@ class StopCondition(Record, frozen=True, kw_only=True, tag_field="stop", tag=Tru
 
 
 class AtSteps(StopCondition, frozen=True, kw_only=True):
-    """Pause before any of the steps with these numbers."""
+    """Pause before each step whose number is in `steps`."""
 
     steps: tuple[int, ...]
 
@@ -35,20 +35,20 @@ class AtSteps(StopCondition, frozen=True, kw_only=True):
 
 
 class AtLine(AtSteps, frozen=True, kw_only=True):
-    """Pause before any step on a line of the main source text or of a required file."""
+    """Pause before each step on the line `line` of the main source text or of a required file."""
 
     file: str
     line: int
 
 
 class AtLabel(AtSteps, frozen=True, kw_only=True):
-    """Pause before any step with a label."""
+    """Pause before each step with the label `label`."""
 
     label: str
 
 
 class AtInstruction(AtSteps, frozen=True, kw_only=True):
-    """Pause before any step whose statement begins with an instruction word."""
+    """Pause before each step whose statement begins with the instruction word `word`."""
 
     word: str
 
@@ -63,7 +63,7 @@ class BeforeStep(AtSteps, frozen=True, kw_only=True):
 
 
 class AtStage(StopCondition, frozen=True, kw_only=True):
-    """Pause when the stage with this index and name is about to begin."""
+    """Pause when a stage, given by its index and its name, is about to begin."""
 
     stage: int
     name: str
@@ -73,7 +73,7 @@ class AtStage(StopCondition, frozen=True, kw_only=True):
 
 
 class OnError(StopCondition, frozen=True, kw_only=True):
-    """Pause after a step that raised the error with this number."""
+    """Pause after a step that raised error `number`."""
 
     number: int
 
@@ -82,7 +82,7 @@ class OnError(StopCondition, frozen=True, kw_only=True):
 
 
 class AfterStage(StopCondition, frozen=True, kw_only=True):
-    """Pause when the stage with this index and name has ended."""
+    """Pause when a stage, given by its index and its name, has ended."""
 
     stage: int
     name: str
@@ -100,7 +100,7 @@ class ReversalEnd(StopCondition, frozen=True, kw_only=True, tag="Undone"):
 
 
 class AfterSteps(StopCondition, frozen=True, kw_only=True):
-    """Pause after this number of steps. The caller counts the steps."""
+    """Pause after `count` steps. The caller counts the steps."""
 
     count: int
 

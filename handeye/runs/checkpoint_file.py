@@ -1,8 +1,8 @@
 """Reads and writes checkpoint files: one line with the format, one line of readable JSON, then the compressed
 state.
 
-The first line contains a digest of the rest of the file. If the file is truncated or a bit is wrong, it is
-refused before any of its content is used.
+The first line contains a digest of the rest of the file. A truncated or altered file is therefore refused before
+handeye uses any of its content.
 """
 
 import hashlib
@@ -61,7 +61,7 @@ class Head(Record, frozen=True, kw_only=True):
 
 
 class _Snapshot(Record, frozen=True, kw_only=True, omit_defaults=True):
-    """A `Snapshot` whose state has not been decoded yet, because its type depends on the system."""
+    """A `Snapshot` whose state has not been decoded yet, because the type of the state depends on the system."""
 
     position: Annotated[int, msgspec.Meta(ge=0)]
     happened: Annotated[int, msgspec.Meta(ge=0)]
@@ -114,8 +114,8 @@ def encode(checkpoint: Checkpoint) -> bytes:
 
 
 def decode(data: bytes, name: str) -> Checkpoint:
-    """Decode a checkpoint; raises BadFile if the data are not a checkpoint, or if this version of handeye
-    cannot use them. Messages call the file `name`.
+    """Decode a checkpoint. Raises BadFile if the data are not a checkpoint, or if this version of handeye cannot use
+    them. In messages, the file is called `name`.
     """
     head, rest = _opened(data, name)
     try:

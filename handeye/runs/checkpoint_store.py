@@ -87,7 +87,9 @@ class CheckpointStore:
                 )
 
     def claim(self, setup: Setup) -> None:
-        """Raise InvalidInput if a run with this setup would overwrite checkpoints that could not be made again."""
+        """Raise InvalidInput if a run with the setup `setup` would overwrite checkpoints that could not be made
+        again.
+        """
         self.check(setup)
         for fault in self.damaged():
             raise CannotWrite(f"{self.folder} holds an unreadable file ({fault}); choose another folder")
@@ -98,8 +100,8 @@ class CheckpointStore:
             )
 
     def newest(self) -> tuple[Checkpoint | None, list[str]]:
-        """Return two values: the valid checkpoint with the most steps done, or None; and a sentence for each invalid
-        file.
+        """Return the valid checkpoint with the most steps done (None if no checkpoint is valid), and a sentence for
+        each invalid file.
         """
         found, faults = None, []
         for path in sorted(self.folder.glob(f"*{ENDING}"), key=_position, reverse=True):
@@ -122,11 +124,11 @@ class CheckpointStore:
         return None
 
     def for_stage(self, setup: Setup, number: int) -> Checkpoint | None:
-        """Return the checkpoint from which a run with this setup reaches the stage with this number in the fewest
-        steps; None if there is no such checkpoint.
+        """Return the checkpoint from which a run reaches stage `number` in the fewest steps, or None if no checkpoint
+        is suitable.
 
-        Checkpoints made after a person interfered do not count. Raises BadFile if the checkpoints belong to
-        another run.
+        Checkpoints made after a person interfered do not count. Raises BadFile if the checkpoints belong to a run with
+        another setup than `setup`.
         """
         self.check(setup)
         stages = listing_of(setup).stages
@@ -145,8 +147,9 @@ class CheckpointStore:
 
 
 def _position(path: Path) -> int:
-    """Return the number of steps done, read from the name of a checkpoint's file; -1 for the checkpoint made
-    before the run began."""
+    """Read the number of steps done from the name of a checkpoint's file. Returns -1 for the checkpoint made before
+    the run began.
+    """
     number = re.match(r"(\d+)-", path.name)
     return -1 if number is None else int(number[1])
 

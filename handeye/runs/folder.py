@@ -66,8 +66,8 @@ class RunFolder(Observer):
     """Records a run in a folder."""
 
     def __init__(self, path: Path, made: list[Path]) -> None:
-        """Do not call this directly: use `open_new` or `open_again`. `made` are the newly created folders, the
-        innermost first.
+        """Do not create a `RunFolder` directly: use `open_new` or `open_again`. `made` are the newly created folders,
+        the innermost first.
         """
         self.path = path
         self.kept = CheckpointStore(path / CHECKPOINTS)
@@ -113,7 +113,7 @@ class RunFolder(Observer):
         return "" if self._journal is None else self._journal.unlocked
 
     def begin(self, start: Checkpoint) -> None:
-        """Replace the run that was in the folder by this run."""
+        """Replace the old run in the folder by the new run."""
         self.kept.drop_after(-1)
         left = [self.path / name for name in (TRACE, f"{TRACE}.part", HOST, *_outcomes())]
         for file in (*left, *(self.path / PICTURES).glob("*.png")):
@@ -168,7 +168,7 @@ class RunFolder(Observer):
 
     def _goes_on(self) -> None:
         """Remove the files that hold the outcome of the run. The files are outdated when the run continues. While the
-        run continues, other commands may write such files again; `close` removes them.
+        run continues, other commands may write outdated files again. `close` removes these files.
         """
         if not self._continued:
             self._remove_outcome()

@@ -1,4 +1,5 @@
-"""What one leg of a relay hands over to the next: a small record in SI units, which is independent of the languages.
+"""Each leg of a relay hands over a small record to the next leg. The record is in SI units, and is independent of the
+languages.
 
 Each system writes and reads the record in its own way (`handeye/runs/legs.py`). The record says where the hand is,
 what the hand holds, and which places the programs have found. The record contains only what sensors and programs know.
@@ -52,7 +53,7 @@ class HandOver(Record, frozen=True, kw_only=True):
     """The values that programs have found, by kind and name. Each value is a tuple of numbers."""
 
     def check(self) -> None:
-        """Raise Refused unless all values are finite numbers in SI units."""
+        """Raise Refused unless the record is in SI units and all its values are finite numbers."""
         if self.units != UNITS:
             raise Refused(
                 f"the hand-over record is in {', '.join(self.units)}; it must be in {', '.join(UNITS)}"
@@ -85,7 +86,7 @@ class HandOver(Record, frozen=True, kw_only=True):
         raise Refused(f"{quoted(name)} is a {other} in the hand-over record, but the leg needs a {kind}")
 
     def height(self, name: str) -> float:
-        """Return the height (m) with this name, or the height of the place with this name. Raises Refused as `value`
+        """Return the height (m) of the value `name`. The value may be a height or a place. Raises Refused as `value`
         does.
         """
         if name in self.named.get("place", {}) and name not in self.named.get("height", {}):
@@ -93,7 +94,7 @@ class HandOver(Record, frozen=True, kw_only=True):
         return float(self.value(name, "height")[0])
 
     def check_hand(self, sensed: Sensed, arm: ArmModel) -> None:
-        """Raise Refused unless hand and fingers are as the record says, according to the sensors."""
+        """Raise Refused unless the sensors show that the hand and the fingers are as the record says."""
         self.check()
         X_WT, told = forward(arm, sensed.q), hand(*self.hand)
         off = float(np.linalg.norm(X_WT[:3, 3] - told[:3, 3]))

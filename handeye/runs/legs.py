@@ -30,15 +30,15 @@ class Use(NamedTuple):
 
 
 class Lack(NamedTuple):
-    """Something that a program needs and a leg cannot provide, with the line of the program that needs it."""
+    """A need that no leg can meet, such as a motor, and the program line that causes the need."""
 
     line: int
     sentence: str
 
 
 class RunningLeg(RunningSystem):
-    """A program of a relay during its legs. Between two of these legs, the program keeps its memory, and other
-    programs may move the arm.
+    """A running program that executes one or more legs of a relay. Between two of these legs, the program keeps its
+    memory, and other programs may move the arm.
     """
 
     @abstractmethod
@@ -47,8 +47,8 @@ class RunningLeg(RunningSystem):
 
     @abstractmethod
     def take_over(self, stage: str, record: HandOver, station: StationMemory) -> None:
-        """Take the arm over from another program, for a stage. Raises Refused, and changes nothing, if the record
-        lacks a value that the stage needs, or if such a value in the record is of the wrong kind.
+        """Take the arm over from another program to execute a stage. If the record lacks a value that the stage needs,
+        or has this value in the wrong kind, the method changes nothing and raises Refused.
         """
 
     @abstractmethod
@@ -108,7 +108,7 @@ class LegSystem(ABC):
         return system_named(self.system).listing(plan)
 
     def executed(self, plan: Record, state: SystemState) -> Sequence[ExecutedStep]:
-        """Return the executed steps of a plan that have not been undone, according to a state."""
+        """Return the steps of a plan that, in a given state, have been executed and not undone."""
         return system_named(self.system).executed(plan, state)
 
     @abstractmethod
@@ -124,7 +124,7 @@ class LegSystem(ABC):
         return ()
 
     def lacks(self, plan: Record, stage: str, earlier: Sequence[str]) -> Sequence[Lack]:
-        """Return what a stage needs and a leg cannot provide. `earlier` gives the stages that earlier legs of the
+        """Return a stage's needs that no leg can meet. `earlier` gives the stages that earlier legs of the
         same program execute.
         """
         return ()

@@ -1,4 +1,6 @@
-"""A run of a program with numbered lines: the events and checks that all systems with such programs share."""
+"""Runs of programs with numbered lines. This module has the events and checks that all systems with numbered lines
+share.
+"""
 
 from abc import abstractmethod
 from typing import ClassVar, Literal

@@ -30,14 +30,14 @@ from handeye.runs.undo_orders import stage_began
 
 
 class Back(Record, frozen=True, kw_only=True):
-    """Return the simulation to the latest beginning of the stage with this index."""
+    """The decision to put the simulation back to the latest beginning of a stage, given by its index."""
 
     stage: int
 
 
 class Unwind(Record, frozen=True, kw_only=True):
-    """Let the arm undo its steps back to the latest beginning of the stage with this index, and continue from
-    there.
+    """The decision to let the arm undo its steps, back to the latest beginning of a stage, and then to continue the
+    program. The stage is given by its index.
     """
 
     stage: int
@@ -91,7 +91,7 @@ class Retry:
 @dataclass(frozen=True, slots=True)
 class UnwindOnce:
     """Lets the arm undo its steps when a stage fails for the first time. The arm goes back to the beginning of the
-    stage with the index `stage` or, by default, of the stage that failed.
+    failed stage or, if `stage` is given, to the beginning of the stage with this index.
 
     Like `Retry`, this operator counts earlier attempts from the events of the run.
     """
@@ -111,7 +111,7 @@ def undoing(runner: Runner) -> bool:
 
 
 def _unwound(runner: Runner) -> set[int]:
-    """Return the indices of the stages that failed, and in which the arm then undid steps."""
+    """Return the indices of the stages after whose failure the arm undid steps."""
     found, now = set(), -1
     for event in _of_this_part(runner):
         if isinstance(event, StageStarted):
@@ -130,8 +130,8 @@ def _of_this_part(runner: Runner) -> Sequence[AnyEvent]:
 
 
 def parse_policy(text: str, stages: Sequence[str]) -> Operator | None:
-    """Return the operator that the words `abort`, `retry:N`, `unwind` or `unwind:STAGE` name; None for `ask`,
-    which needs a person.
+    """Return the operator for one of the words `abort`, `retry:N`, `unwind` and `unwind:STAGE`. Returns None for
+    `ask`, because this word asks for a person.
     """
     if text == "abort":
         return Abort()
@@ -204,8 +204,9 @@ def _carry_out(
 
 
 def beginnings(runner: Runner) -> dict[int, int]:
-    """Return, for the index of each stage, the number of steps that were done when the stage last began. The stage
-    that began last comes last."""
+    """Return a dictionary from the index of each stage to the number of steps that were done when the stage last
+    began. The stage that began last comes last.
+    """
     found: dict[int, int] = {}
     done = 0
     for event in runner.events:

@@ -57,7 +57,7 @@ class Parts:
 
 
 def given_as(part: str) -> str:
-    """Return how a caller passes a replacement of a part to `handeye.begin`."""
+    """Return the argument of `handeye.begin` with which a caller replaces a part."""
     return f"vision={{{part!r}: ...}}" if part in VISION else f"{part}=..."
 
 

@@ -54,8 +54,8 @@ RECENT: Final = 400  # steps whose states stay in memory; older states only at t
 
 
 def reach(first: int) -> str:
-    """Say in a sentence that a run cannot go back beyond its earliest state. `first` is the number of steps that came
-    before this state.
+    """Return a sentence that says that a run cannot go back beyond its earliest state. `first` is the number of steps
+    that came before this state.
     """
     return (
         f"this run begins with {counted(first, 'step')} already done: there is no earlier state to go back to"
@@ -153,7 +153,7 @@ class Runner:
         return any_task(self.setup.task)
 
     def require(self, capability: Capability) -> None:
-        """Raise InvalidInput, with the system's name, unless the run's system has a capability."""
+        """Raise InvalidInput unless the run's system has a capability. The message names the system."""
         require(self.setup.system, capability)
 
     @property
@@ -209,8 +209,8 @@ class Runner:
 
     @property
     def onward(self) -> int | None:
-        """If the program has stopped to call the operator, the number of the step that would have run next; if not,
-        None.
+        """The number of the step that would have run next if the program had not stopped to call the operator. The
+        value is None if the program has not stopped.
         """
         return self.system.state.onward
 
@@ -248,8 +248,8 @@ class Runner:
     # -- running --------------------------------------------------------------------------------------
 
     def step(self) -> None:
-        """Execute the next step. Raises Halted if the panic button is pressed. After that, `rollback` reverts
-        the incomplete step.
+        """Execute the next step. Raises Halted if the panic button is pressed. After this exception, call `rollback`
+        to revert the incomplete step.
         """
         assert not self.ended
         self._within_step = True
@@ -278,7 +278,7 @@ class Runner:
 
     def order_reversal(self, left: int, *, halts: bool = False, asked_by: AskedBy = "person") -> None:
         """Order the arm to undo executed steps until only `left` of them remain. Each following step of the run undoes
-        one executed step. If `halts` is True, the run then ends.
+        one executed step. If `halts` is True, the run ends when these steps have been undone.
         """
         self.require("undo")
         self.system.reverse(ReversalOrder(left=left, halts=halts, asked_by=asked_by))
@@ -314,15 +314,15 @@ class Runner:
     # -- going back -----------------------------------------------------------------------------------
 
     def rollback(self) -> None:
-        """Return the simulation to its state at the end of the last complete step."""
+        """Put the simulation back into its state at the end of the last complete step."""
         self._return_to(self.history[-1])
 
     def back_to(self, position: int, kept: Callable[[int], Checkpoint | None] = lambda _: None) -> None:
-        """Return to the state with `position` steps done: restore the nearest earlier state, and execute the
-        remaining steps from there.
+        """Put the run back into the state in which `position` steps were done. To do this, restore the nearest earlier
+        state, and execute the remaining steps from there.
 
-        The function `kept` is needed for states that are no longer in memory. Called with a number of steps, it
-        returns the newest checkpoint on disk at which at most this number of steps was done.
+        The function `kept` is needed for states that are no longer in memory. Its argument is a number of steps. It
+        returns the newest checkpoint on disk that was made after at most this number of steps.
         """
         if not 0 <= position <= self.position:
             raise BadArgument(f"cannot go back to the state after {counted(position, 'step')}")
@@ -384,8 +384,8 @@ class Runner:
         return len(periods)
 
     def type_line(self, text: str, task: str = "") -> None:
-        """Type a line at the system's console, for one of the system's tasks. If a step is being executed, the line is
-        executed in the middle of the step, unless the system refuses a line there.
+        """Type a line at the system's console, for one of the system's tasks. If the line is typed while a step is in
+        progress, the system executes the line in the middle of the step, or refuses it.
         """
         self.require("console")
         if self._within_step:

@@ -35,8 +35,8 @@ def default_script(work: Task | None = None) -> Path:
 
 
 def program_named(name: str) -> tuple[Path, Task] | None:
-    """Return the included script whose file name without its extension is `name`, together with its task; None if
-    there is no such script.
+    """Return the script with the file name `name` (without extension) that is included with handeye, and the task of
+    this script. Returns None if no included script has this name.
     """
     return next((each for each in _programs() if each[0].stem == name), None)
 
@@ -71,14 +71,14 @@ def taught(file: Path, work: Task | None = None) -> Taught:
 
 
 def taught_beside(file: Path) -> Taught:
-    """Return the positions in the taught file beside a script; empty if there is no such file."""
+    """Return the positions in the taught file beside a script, or no positions if the script has no taught file."""
     path = beside(file, ".toml")
     return load_taught(path) if is_there(path) else Taught()
 
 
 def in_cell(known: Taught, work: Task) -> Taught:
-    """Add the fixtures of the task's cell to taught positions. A fixture in the taught file replaces a fixture of the
-    cell with the same name.
+    """Add the fixtures of the task's cell to taught positions. If a taught fixture and a fixture of the cell have the
+    same name, the taught one is used.
     """
     return replace(known, fixtures={**work.fixtures(), **known.fixtures})
 
@@ -96,7 +96,7 @@ def plan_script(file: Path, known: Taught | None = None, work: Task | None = Non
 
 
 def plan_text(text: str, known: Taught, work: Task) -> "PlannedScript":
-    """Compile and plan a text. Required files are searched for in the current folder."""
+    """Compile and plan a text. The current folder is searched for the files that the text requires."""
     source = sewn(Source(name=UNNAMED, text=text.removeprefix("\ufeff")), lambda key: read_source(key).text)
     return planned(source, known, work, AL)
 

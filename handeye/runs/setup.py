@@ -33,7 +33,7 @@ class Setup(Record, frozen=True, kw_only=True):
 
 
 def plan_of(setup: Setup) -> Plan:
-    """Return the plan of motions of a run. Raises Refused if the run's system does not execute such plans."""
+    """Return the plan of motions of a run. Raises Refused if the run's system does not execute plans of motions."""
     if not isinstance(setup.plan, Plan):
         raise refusal(setup.system, "plans")
     return setup.plan

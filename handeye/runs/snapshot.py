@@ -1,4 +1,4 @@
-"""The complete state of a run between two steps, and checkpoints made of it."""
+"""The complete state of a run between two steps, and the checkpoints made from this state."""
 
 from collections.abc import Iterable
 from typing import Annotated

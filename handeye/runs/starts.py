@@ -69,7 +69,7 @@ class StartStates:
     """The start states of one task, kept in a folder. Without a folder, every start state is made again."""
 
     def __init__(self, task: str, camera: str, folder: Path | None = None) -> None:
-        """Use the starts of a task: the states in which its stages begin. `folder` is the folder in which they are
+        """Keep the starts of a task: the states in which its stages begin. `folder` is the folder in which they are
         stored, by default in the user's cache.
         """
         self._task, self._camera, self._folder = task, camera, folder or starts_folder()
@@ -127,8 +127,8 @@ class StartStates:
 
 
 def planted(start: Checkpoint, fault: Fault) -> Checkpoint:
-    """Return a start with one more fault in its world. The fault acts only after a certain stage has begun. Before
-    that stage, the worlds with and without the fault are equal.
+    """Return a start with one more fault in its world. The fault must not act before the start: up to then, the worlds
+    with and without the fault are equal.
     """
     setup, snapshot = start.setup, start.snapshot
     assert snapshot is not None

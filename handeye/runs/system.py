@@ -1,5 +1,5 @@
-"""Defines the interfaces of a system in `handeye/systems`: `System`, and `RunningSystem` for the system during a
-run, which can be stepped, saved and restored.
+"""Defines the interfaces of a system in `handeye/systems`: `System`, and `RunningSystem`. A running system is a system
+during a run; it can be stepped, saved and restored.
 
 A system is found by its entry (`handeye/core/entries.py`), and is loaded when a run needs it.
 """
@@ -49,7 +49,9 @@ class StepFacts(Protocol):
 
     @property
     def file(self) -> str:
-        """Name of the required file that contains the step; empty for the main text."""
+        """Name of the file that contains the step, if the program requires this file; empty if the step is in the
+        program's own text.
+        """
 
     @property
     def line(self) -> int:
@@ -77,7 +79,7 @@ class StepFacts(Protocol):
 
     @property
     def place(self) -> str:
-        """The line of the step in the form in which messages give it: `12`, or `pins.al:12`."""
+        """The step's line as messages write it: `12`, or `pins.al:12`."""
 
     @property
     def examines(self) -> str | None:
@@ -121,8 +123,8 @@ class Listing(Protocol):
 
     @property
     def numbered(self) -> Mapping[int, str]:
-        """Lines of the text, by the numbers that the text itself gives them. The mapping is empty if lines are counted
-        from 1.
+        """Lines of the text. Each key is the number that the text itself gives to the line. The mapping is empty if
+        lines are counted from 1.
         """
 
     @property
@@ -139,7 +141,7 @@ class Listing(Protocol):
 
     @property
     def errors(self) -> Collection[int]:
-        """Numbers of the errors that steps may raise; empty if steps raise none."""
+        """Numbers of the errors that steps may raise; an empty collection if steps raise no errors."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -155,12 +157,12 @@ class Settable:
 
 
 class RunningSystem(Protocol):
-    """A system during a run, which can be stepped, saved and restored."""
+    """A system during a run. A running system can be stepped, saved and restored."""
 
     @property
     @abstractmethod
     def state(self) -> SystemState:
-        """The complete state of the system. The system changes this record in place."""
+        """The complete state of the system. The system changes its state in place."""
 
     @property
     def cell(self) -> SnapshotCell | None:
@@ -173,7 +175,9 @@ class RunningSystem(Protocol):
 
     @property
     def channels(self) -> tuple[Channel, ...]:
-        """Channels that are recorded in each servo period in addition to joints and hand."""
+        """The channels that are recorded in each servo period. The joints and the hand are also recorded, but are not
+        listed here.
+        """
         return ()
 
     @property
@@ -210,8 +214,8 @@ class RunningSystem(Protocol):
         """
 
     def halt(self) -> None:
-        """Bring the machine to rest in a safe state, for example with its brakes on, because the run cannot continue.
-        A system without such a state does nothing.
+        """The run cannot continue: bring the machine to rest in a safe state, for example with its brakes on. A system
+        that has no safe state does nothing.
         """
         return
 
@@ -226,7 +230,7 @@ class RunningSystem(Protocol):
         return ()
 
     def reverse(self, undoing: ReversalOrder) -> None:
-        """Let each following step undo one executed step, the last one first. Raises InvalidInput if no
+        """From now on, each step undoes the last executed step that is not yet undone. Raises InvalidInput if no
         executed step is left."""
 
     @abstractmethod
@@ -235,12 +239,12 @@ class RunningSystem(Protocol):
 
     @property
     def context(self) -> ExecutionContext | None:
-        """The context in which a plan of motions is executed; None if the system does not execute such plans."""
+        """The context in which a plan of motions is executed; None if the system does not execute plans of motions."""
         return None
 
     @property
     def arm_cell(self) -> SimulatedCell | None:
-        """The cell in which a plan of motions is executed; None if the system does not execute such plans."""
+        """The cell in which a plan of motions is executed; None if the system does not execute plans of motions."""
         return None
 
     @property
@@ -254,26 +258,25 @@ class RunningSystem(Protocol):
 
     @property
     def just_found(self) -> tuple[str, Sequence[Mark]]:
-        """The name of the picture in which the present step has found something, and marks for what the step
-        found. The name is empty if the step found nothing."""
+        """The name of the picture that the present step searched, and a mark for each object that it found. The name
+        is empty if the step found nothing.
+        """
         return "", ()
 
     def built(self) -> Findings:
-        """Return the findings that the referee made on the finished work before the arm undid it. The result is empty
+        """Return the findings that the referee made before the arm undid the finished work. The result is empty
         if the work was not undone, or was not judged.
         """
         return {}
 
     @property
     def legs(self) -> Sequence[tuple[str, str]]:
-        """The system and the stage of each leg of a relay, in order; empty for any other run."""
+        """The system and the stage of each leg, in order, if the run is a relay; an empty sequence for other runs."""
         return ()
 
     @property
     def figures(self) -> Mapping[str, float]:
-        """The system's own figures for the result of the run. The result shows these in addition to the figures that
-        every system has. By default, there are no such figures.
-        """
+        """Figures that only this system adds to the result of the run. By default, a system adds no figures."""
         return {}
 
     def remembered(self) -> Findings:
@@ -282,24 +285,24 @@ class RunningSystem(Protocol):
 
     @abstractmethod
     def restore(self, state: SystemState) -> None:
-        """Continue from a copy of a state. The caller must first restore the cell to its state at the moment of
-        `state`. Raises InvalidInput if the state does not fit the plan.
+        """Continue from a copy of a state. The caller must first restore the cell as it was when `state` was captured.
+        Raises InvalidInput if the state does not fit the plan.
         """
 
     @property
     def shown(self) -> Mapping[str, Any]:
-        """The state of the system in a form for display."""
+        """The state of the system, as users see it."""
         shown: dict[str, Any] = msgspec.to_builtins(self.state, enc_hook=np.ndarray.tolist)
         return shown
 
     def type_line(self, text: str, task: str) -> None:
-        """Pass a line typed at the console to a task, and emit `LineTyped` before the line takes effect. Raises
-        InvalidInput, and changes nothing, if the system has no console or no such task.
+        """Emit `LineTyped`, then pass a line typed at the console to a task. Raises InvalidInput, and changes nothing,
+        if the system has no console, or no task with the name `task`.
         """
         raise Refused("this system has no console to type at")
 
     def interject(self, text: str, task: str) -> None:
-        """Execute a typed line in the middle of a step, and emit `LineTyped` before the line takes effect. If the line
+        """Emit `LineTyped`, then execute a typed line in the middle of a step. If the line
         cannot be executed there, raises InvalidInput and changes nothing.
         """
         raise Refused("a line can be typed only while the run is paused; `pause` pauses it")
@@ -317,12 +320,15 @@ class RunningSystem(Protocol):
         return None
 
     def settables(self) -> Mapping[str, Settable]:
-        """Return the values that a person can set, by kind; none by default."""
+        """Return the values that a person can set. The keys are the kinds of values. By default, a person can set no
+        values.
+        """
         return {}
 
     def set_value(self, what: str, name: str, value: tuple[float, ...]) -> None:
-        """Set a value in SI units. Raises InvalidInput if there is no object with that name, or if the value
-        does not fit the object."""
+        """Set a value in SI units. `what` is the kind of the value, and `name` the object that has the value. Raises
+        InvalidInput if no object has this name, or if the value does not fit the object.
+        """
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -363,8 +369,8 @@ class LiveNews(ABC):
 
     @abstractmethod
     def since(self, seen: object) -> tuple[object, str] | None:
-        """Return a mark of the present moment, and a message with everything that is new since the mark `seen`. Pass
-        None at the first call. Returns None if nothing is new.
+        """Return a mark that stands for the present moment, and a message with everything that is new. `seen` is the
+        mark from the call before, or None at the first call. Returns None if nothing is new.
         """
 
 
@@ -409,13 +415,14 @@ class System(ABC):
 
     @abstractmethod
     def build(self, setup: Setup, around: RunCallbacks) -> RunningSystem:
-        """Build the running system, without making a step yet. Raises InvalidInput if the system cannot be
+        """Build the running system, but do not execute a step. Raises InvalidInput if the system cannot be
         built on this computer.
         """
 
     def machine(self, plan: Any) -> tuple[str, str]:
-        """Return the name and digest of the machine for which a plan is made; both are empty if there is no
-        such machine."""
+        """Return the name and digest of the machine for which a plan is made; both are empty if the plan is made for
+        no particular machine.
+        """
         return "", ""
 
     def check(self, setup: Setup) -> None:
@@ -424,15 +431,15 @@ class System(ABC):
             raise BadFile(f"this is not a plan of {self.entry.title}")
 
     def own_plan(self, task: str) -> Any:
-        """Return the default plan for a task. Raises InvalidInput if the task has no such plan."""
+        """Return the default plan for a task. Raises InvalidInput if the task has no default plan."""
         raise refusal(self.name, "plans")
 
     def executed(self, plan: Any, state: Any) -> Sequence[ExecutedStep]:
-        """Return the executed steps of a plan that have not been undone, according to a state."""
+        """Return the steps of a plan that, according to a state, were executed and have not been undone."""
         return ()
 
     def order(self, plan: Any, state: Any, undoing: ReversalOrder) -> None:
-        """Change a state so that a run that continues from the state first undoes executed steps. Raises
+        """Write an order to undo into a state. A run that continues from this state first undoes executed steps. Raises
         InvalidInput if no executed step is left.
         """
         raise refusal(self.name, "undo")
@@ -463,17 +470,17 @@ class System(ABC):
         return go()
 
     def files(self, runner: Runner, pause: Pause, result: Any) -> Mapping[str, bytes]:
-        """Return the contents of further files for the run's folder. The keys are the names that the system's entry
-        lists. `result` is the run's `results.result.Result`.
+        """Return the contents of the files that this system adds to the run's folder. The keys are the names that the
+        system's entry lists. `result` is the run's `results.result.Result`.
         """
         return {}
 
     def page(self, folder: Path) -> bytes | None:
-        """Make the report of a finished run from the system's own files in the run's folder. Return None if the
-        general report is used.
+        """Make the report of a finished run from the system's own files in the run's folder. Return None if the run
+        uses the report that is common to all systems.
         """
         return None
 
     def parts(self, folder: Path) -> Sequence[PagePart]:
-        """Return the sections, specific to this system, that are added to the report of the run in a folder."""
+        """Return the sections that this system adds to the report of the run in `folder`."""
         return ()

@@ -10,7 +10,7 @@ from handeye.runs.system import Listing, System
 
 
 def system_named(name: str) -> System:
-    """Return the system called `name`. Raises InvalidInput if there is no such system."""
+    """Return the system called `name`. Raises InvalidInput if no system has this name."""
     found: System = loaded(entry_named(name).system)
     return found
 
@@ -21,7 +21,7 @@ def system_of(setup: Setup) -> System:
 
 
 def system_of_files(folder: Path) -> System | None:
-    """Return the system whose own files are in the folder of a run, or None if there are no such files."""
+    """Return the system whose own files are in the folder of a run, or None if no system has files there."""
     found = (e for e in entries().values() if any((folder / name).is_file() for name in e.files))
     return next((system_named(entry.name) for entry in found), None)
 

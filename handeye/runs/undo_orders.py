@@ -1,5 +1,6 @@
-"""Orders the arm to undo the work of a stored run: determines how many steps to undo, and the checkpoint from
-which the arm starts."""
+"""Orders the arm to undo the work of a stored run: determines how many steps to undo, and the checkpoint at which the
+arm begins to undo them.
+"""
 
 from collections.abc import Sequence
 
@@ -29,8 +30,8 @@ def stage_began(executed: Sequence[ExecutedStep], listing: Listing, stage: int) 
 
 
 def to_be_undone(checkpoint: Checkpoint, name: str, stage: int | None = None) -> Checkpoint:
-    """Add an order to a checkpoint: the arm undoes its steps and then ends the run. The arm undoes the steps since the
-    beginning of stage `stage`, or all steps if `stage` is None. Messages call the run `name`.
+    """Add an order to a checkpoint: the arm undoes steps of the run, and then the run ends. The arm undoes the steps
+    since the beginning of stage `stage`, or all steps if `stage` is None. Messages call the run `name`.
     """
     require(checkpoint.setup.system, "undo", name)
     snapshot, kind, plan = checkpoint.snapshot, system_of(checkpoint.setup), checkpoint.setup.plan

@@ -1,7 +1,7 @@
 """Keeps the ten newest unnamed runs, to which the user gave no name, in the folder `runs` of the current folder.
 Each folder is named after the start time of its run.
 
-The environment variable HANDEYE_RUNS names another folder; if it is empty, no run is kept without `--out`.
+The environment variable HANDEYE_RUNS names another folder. If the variable is empty, a run is kept only with `--out`.
 """
 
 import os
@@ -122,8 +122,8 @@ def _runs(home: Path) -> Iterator[Path]:
 
 
 def _unnamed(home: Path) -> Iterator[Path]:
-    """Yield those folders of unnamed runs that contain nothing but the run. A run in a renamed folder counts as
-    named.
+    """Yield the folders of unnamed runs, without the folders that also contain other files. A run in a renamed folder
+    counts as named.
     """
     for path in home.iterdir():
         mark = path / MARK

@@ -47,8 +47,8 @@ def settled(events: Sequence[AnyEvent]) -> int:
 
 
 def difference(trace: Trace, folder: Path) -> str | None:
-    """Repeat a run as `repetition` does, and return the first difference as a sentence. Numbers that differ only in
-    their last digits count as different, too. Returns None if there is no difference.
+    """Repeat a run as `repetition` does, and return the first difference as a sentence. Even numbers that differ only
+    in their last digits count as different. Returns None if there is no difference.
     """
     found = repetition(trace, folder)
     return found.rounded or found.parts

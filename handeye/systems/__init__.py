@@ -1,3 +1,3 @@
-"""The systems of the 1970s and 1980s, one folder each; the folder's `ENTRY` says what the system offers and where
-its objects are.
+"""The systems of the 1970s and 1980s. Each system has its own folder. `ENTRY` in this folder says what the system
+offers and where its objects are.
 """

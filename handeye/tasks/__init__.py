@@ -1,8 +1,8 @@
 """Finds the tasks of all systems by name. No other module lists them.
 
-A task is one of handeye's own, or comes from the entry-point group `handeye.tasks` of an installed package, from
-`--task MODULE:NAME`, or from a Python program that calls `register`. A task's module is imported when the task is
-first used.
+Some tasks belong to handeye. Other tasks come from one of three sources: the entry-point group `handeye.tasks` of an
+installed package, `--task MODULE:NAME`, or a Python program that calls `register`. A task's module is imported when
+the task is first used.
 """
 
 import os
@@ -43,8 +43,8 @@ _WORDS: Final[dict[str, str]] = {}  # the words of `--task`, by the names of the
 def register(task: AnyTask) -> None:
     """Register a task under its name, and its arm under the arm's name.
 
-    Raises InvalidInput if the object is not a task or has no name, if the parked configuration is outside the
-    arm's limits, or if the name of the task or of its arm is already in use.
+    Raises InvalidInput if the object is not a task, if it has no name, or if its parked configuration is outside the
+    arm's limits. Also raises InvalidInput if the name of the task or of its arm is already in use.
     """
     if not isinstance(task, AnyTask):
         raise BadArgument(f"a task must be an instance of a class derived from handeye.Task, not {task!r}")
@@ -115,8 +115,8 @@ def planned(task: AnyTask) -> Task:
 
 
 def known_any(name: str) -> AnyTask | None:
-    """Return the task called `name`, or None if this process does not know it, for example because another
-    Python program registered it. Raises InvalidInput if the task's module cannot be imported.
+    """Return the task called `name`. Returns None if this process does not know the task; for example, only another
+    process may have registered it. Raises InvalidInput if the task's module cannot be imported.
     """
     if name not in _REGISTERED and (place := _BUILT_IN.get(name) or _ours().get(name)) is not None:
         return _loaded(place)
@@ -157,8 +157,8 @@ def of_plans(kind: Kind) -> Iterator[Task]:
 
 
 def _ours() -> dict[str, str]:
-    """Return, for each task that belongs to handeye or to one of its systems, the MODULE:NAME from which the task is
-    imported.
+    """Return the addresses from which the tasks of handeye and of its systems are imported. The keys are the names of
+    the tasks, and the values have the form MODULE:NAME.
     """
     return _BUILT_IN | {name: place for entry in entries().values() for name, place in entry.tasks.items()}
 

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from handeye.cell.truth import Truth
 
 CLEARANCE: Final = 0.114
-"""Difference between the diameters of hole and pin (mm). It has the same value as for the peg of the Factory benchmark
+"""Difference between the diameters of hole and pin (mm). The Factory benchmark has the same difference for its peg
 (docs/insertion.md).
 """
 CHAMFER: Final = 1.0  # width of the chamfer, mm, as at the holes of the pump's base
@@ -25,7 +25,7 @@ SPREAD: Final = 1.0  # standard deviation of the hole's position error along eac
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class InsertionTruth:
-    """What really happened in an insertion. The program cannot know it."""
+    """A record of what really happened in an insertion. The program has no access to this record."""
 
     peak: float  # greatest resultant of all contacts between pin and plate in any physics step, N
     first: float | None  # time of the first contact, s on the cell's clock
@@ -40,14 +40,15 @@ class InsertionTask(Task):
 
     @abstractmethod
     def caught(self, clearance: float, chamfer: float) -> float:
-        """Return the greatest position error (m) at which the pin still enters a hole. The hole has this clearance (m)
-        and chamfer (m).
+        """Return the greatest position error (m) at which the pin still enters a hole with the given clearance (m) and
+        chamfer (m).
         """
 
     @abstractmethod
     def hole(self, clearance: float, chamfer: float) -> dict[str, float]:
-        """Return the quantities of a world in which the hole has this clearance (m) and chamfer (m) and lies
-        exactly at its taught position. All values are in SI units."""
+        """Return the quantities of a world in which the hole lies exactly at its taught position and has the given
+        clearance (m) and chamfer (m). All values are in SI units.
+        """
 
     @abstractmethod
     def off(self, truth: Truth, error: tuple[float, float]) -> dict[str, float]:

@@ -36,14 +36,16 @@ if TYPE_CHECKING:  # types only: plans are made and checked without a simulator
 
 
 class CameraSetup(Record, frozen=True, kw_only=True):
-    """The television camera of a cell, as designed, and the views from which it is calibrated."""
+    """The model of a cell's television camera according to its drawing, and the views with which this camera is
+    calibrated.
+    """
 
     drawing: CameraModel
     looks: tuple[CalibrationLook, ...]  # the views in which the arm shows its lamp to the camera, in order
 
 
 class HistoricalTiming(Record, frozen=True, kw_only=True):
-    """How long the work of a task took in 1973 (s)."""
+    """The duration (s) of a task's work in 1973."""
 
     year: int
     program: str  # the program that was timed
@@ -57,7 +59,7 @@ class ExportedScene(Record, frozen=True, kw_only=True):
     spec: mujoco.MjSpec
     about: str  # Markdown: the names in the scene, and how the scene differs from the cell
     parts: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
-    """Names of the bodies that can be exported separately. The key is the name of the whole that the bodies form."""
+    """Groups of bodies that can be exported separately: the name of each group, and the names of its bodies."""
     densities: Mapping[str, float] = field(default_factory=dict)
     """Density (kg/m3) of each solid that consists of one metal. The keys are the names of the solids."""
 
@@ -120,8 +122,8 @@ class AnyTask(ABC):
     def scene(self, spec: WorldSpec) -> mujoco.MjModel:
         """Return the scene of a world in its initial state. The scene is only for pictures and is never simulated.
 
-        The scene must have the cameras that the task names, and shapes in the geom groups that pictures show
-        (`handeye/cell/looks.py`); `shown` checks this.
+        The scene must have the cameras that the task names. At least one shape must be in a geom group that is visible
+        in pictures (see `handeye/cell/looks.py`). The method `shown` checks both.
 
         Raises:
             InvalidInput: the world does not fit this task.
@@ -146,8 +148,8 @@ class AnyTask(ABC):
         """Return the referee's findings on the finished work. The referee does not change the cell."""
 
     def judge_between(self, truth: Truth, done: int) -> Findings:
-        """Return the findings that must hold only between two stages: after `done` stages of the task's own program,
-        but not at its end. Empty by default. The referee does not change the cell.
+        """Return the findings that must hold after the first `done` stages of the task's own program, but not at the
+        end of this program. Empty by default. The referee does not change the cell.
         """
         return {}
 
@@ -238,10 +240,10 @@ class Task(AnyTask):
         """
 
     def obligations(self, world: WorldSpec) -> tuple[Obligation, ...]:
-        """Return the obligations of a program. An obligation is what the program must show, for one finding of the
-        referee, before the program ends. By default, there are no obligations. Each finding occurs once. The
-        obligations may depend on what the world asks for, such as the number of screws, but not on the errors of the
-        machines and parts.
+        """Return the obligations of a program. Each obligation belongs to one finding of the referee. The obligation
+        says what the program must show before the program ends. By default, there are no obligations. Each finding
+        occurs once. The obligations may depend on what the world asks for, such as the number of screws, but not on
+        the errors of the machines and parts.
         """
         return ()
 
@@ -255,7 +257,7 @@ class Task(AnyTask):
         return {}
 
     def exported(self, world: WorldSpec, truth: Truth, keyframe: str) -> ExportedScene:
-        """Return the scene of a world for export to other programs, with every object where it really is.
+        """Return the scene of a world for export to other programs. Every object is at its true pose.
 
         Args:
             keyframe: name of the scene's last keyframe, which stores the true state of all objects.

@@ -93,7 +93,7 @@ def carry_out(workplace: Workplace, source: Source, *, alone: bool = False) -> A
 
 
 def done(workplace: Workplace, pause: Pause, happened: int = 0) -> LineResult:
-    """Report what was done after the first N events of the present plan, where N is `happened`."""
+    """Report the steps that the arm did after event number `happened` of the present plan."""
     runner = workplace.runner
     told = step_summaries(runner.events[happened:], runner.listing, runner.task.measures)
     did = tuple(step for step in told if step.line is not None)
@@ -108,7 +108,7 @@ def about(
 
 
 def answer(workplace: Workplace, **fields: Any) -> Answer:
-    """Return an answer. `fields` are the values of fields of its result, a `LineResult`."""
+    """Return an answer whose result is a `LineResult` with the given `fields`."""
     return Answer(time=workplace.time, said=LineResult(**fields))
 
 
@@ -135,8 +135,8 @@ def converse(
     line that fails.
 
     If a line was refused, or its execution stopped, returns the answer to this line. If all lines succeeded, returns
-    None. `write` gets each answer, without a final newline: as lines of text, or as one object on one line if `json`
-    is True.
+    None. `write` is called with each answer: lines of text or, if `json` is True, one JSON object on one line. The
+    answer has no final newline.
     """
     failed = None
     while not listener.over:

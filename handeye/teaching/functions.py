@@ -56,8 +56,8 @@ def planned(
 
 
 def mistakes(checked: PlannedScript, line: int) -> list[Diagnostic]:
-    """Return the mistakes that no later line can correct, in one line of a text and in the files that the text
-    requires.
+    """Return mistakes that are in line number `line` of a text, or in the files that the text requires. Mistakes that
+    a later line can correct are left out.
     """
     found = []
     for diagnostic in checked.diagnostics:

@@ -1,4 +1,4 @@
-"""The table of the commands for teaching, from which both parsing and help are derived."""
+"""The table of the commands for teaching. The parser and the help use this table."""
 
 import re
 from collections.abc import Callable

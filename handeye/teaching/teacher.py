@@ -149,8 +149,8 @@ class Teacher:
         return position
 
     def save(self) -> list[str]:
-        """Write the file, and return the names of the positions that are new in it. Raises CannotWrite, for
-        example if another program has changed the file.
+        """Write the file, and return the names of the positions that are new in it. Raises CannotWrite if the file
+        cannot be written; for example, another program may have changed it.
         """
         names = self.unsaved
         if names:

@@ -31,7 +31,7 @@ from handeye.teaching.functions import TYPED, planned
 MAX_STATES: Final = 100  # states that are stored for going back
 _NOTHING: Final = "WHERE"
 _PICTURE: Final = "LOOK SETUP"
-"""While a workplace has no program of the user, it holds one of these two programs. It never executes them."""
+"""Placeholder programs. A workplace holds one of them until the user gives a program, and never executes it."""
 _FORGOTTEN: Final = (
     "at", "pending", "stage", "stopped", "onward", "idle", "clock", "shots", "general", "found",
     "done", "undoing",

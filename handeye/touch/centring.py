@@ -1,10 +1,10 @@
 """CENTER: closes the fingers around an object without pushing it.
 
-Plain closing would drag the object to the middle of the hand. In centring, once a finger touches, the hand moves
-towards the side of that finger, and the fingers close more slowly, so that this finger comes off the object again. The
-motion ends when both fingers touch. If one finger keeps touching although the hand has moved far enough to free the
-finger, there are three possible causes: the finger's switch is stuck, the wrong finger reported the touch, or the
-object is held against the finger.
+Plain closing would drag the object to the middle of the hand. In centring, the hand moves as soon as one finger
+touches: it moves towards the side of that finger, while the fingers close more slowly. The touching finger therefore
+leaves the object again. The motion ends when both fingers touch. One finger may keep touching although the hand has
+moved far enough to free it. This has three possible causes: the finger's switch is stuck, the wrong finger reported
+the touch, or the object is held against the finger.
 """
 
 from dataclasses import dataclass, field

@@ -26,8 +26,8 @@ class Reading:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Trip:
-    """A guard that has ended a motion, with the measured value and the limit (N or N m, or a mask of finger
-    switches).
+    """A guard that has ended a motion, with the measured value and the limit. Both are a force (N), a torque (N m), or
+    a mask of finger switches.
     """
 
     guard: GuardKind

@@ -36,9 +36,9 @@ SWITCH_FORCE: Final = 10 * OUNCE_FORCE
 """Force (N) with which the fingers press after centring. It closes both switches.
 
 The switches close at 2 ounces, with a stated spread of .4 ounces. In worlds of the high level, the spread is .8
-ounces. With three times this spread added, each finger must press with at least 4.4 ounces. The rest of the force
-allows for two errors. First, one finger can press with 3 ounces less than the other, because the arm can hold the
-difference. Second, the force depends on the gap, which is known only to one step of its converter.
+ounces. A switch may thus need 2 ounces plus three spreads, so each finger must press with at least 4.4 ounces. The rest
+of the force allows for two errors. First, one finger can press with 3 ounces less than the other, because the arm can
+hold the difference. Second, the force depends on the gap, which is known only to one step of its converter.
 """
 GAP_OFFSET: Final = (
     0.06 * INCH
@@ -51,8 +51,8 @@ STALLED_TORQUE: Final = 0.37
 STARTING_PERIODS: Final = 4
 """Number of servo periods that a motor takes to reach its driving speed. We measured 4.2 periods."""
 FAST_PERIODS: Final = 6
-"""Servo periods after which a free motor of the usual speed has certainly started. A motor whose full speed is 1.4
-times the usual speed takes longer.
+"""A free motor of the usual speed always reaches its speed within this number of servo periods. A motor whose full
+speed is 1.4 times the usual speed takes longer.
 """
 WIND_UP: Final = 0.2
 """Longest time (s) for which the torque rises after the head of a screw has met the top. The value is our choice; the
@@ -86,8 +86,8 @@ def followed(gap: float, goal: float) -> bool:
 
 
 def leapt(change: float, reach: float) -> bool:
-    """Return True if the gap changed by more than `reach` (m). `reach` is the distance by which the motor can change
-    the gap in this time.
+    """Return True if the gap changed by more than `reach` (m). `reach` is the greatest change that the motor can make
+    in the time between the two readings of the gap.
     """
     return abs(change) > reach + GAP_NOISE
 
@@ -109,15 +109,16 @@ def thick(gap: float, thickness: float) -> bool:
 
 def kept_apart(gap: float, goal: float) -> bool:
     """Return True if an object keeps the fingers apart while the motor drives them together. `gap` is the gap of the
-    fingers, and `goal` the gap to which the motor drives them (both in m). This is True even if the grip is too light
-    to close a switch.
+    fingers, and `goal` the gap to which the motor drives them (both in m). A grip that is too light to close a switch
+    counts too.
     """
     return gap > EMPTY_GAP and gap - goal > GAP_ERROR
 
 
 def stood_still(change: float, driven: float) -> bool:
-    """Return True if the gap has not changed although the motor has been driven far enough to close the gap by more
-    than GAP_ERROR. `change` and `driven` are in m.
+    """Return True if the fingers stood still although their motor was driven. `change` is the measured change of the
+    gap, and `driven` the change that the motor should have made (both in m). `driven` must be greater than GAP_ERROR,
+    and `change` no greater than noise.
     """
     return driven > GAP_ERROR and abs(change) < GAP_NOISE
 
@@ -155,7 +156,7 @@ def least_gap(minimum: float) -> float:
 
 
 def at_least(gap: float, thickness: float) -> bool:
-    """Return True if the fingers hold an object of at least this thickness (m)."""
+    """Return True if the fingers hold an object that is at least as thick as `thickness` (m)."""
     return gap >= thickness
 
 
@@ -172,7 +173,8 @@ def as_before(gap: float, kept: float, closer: float = SKEW, wider: float = SAME
 
 
 def too_early(gap: float, kept: float) -> bool:
-    """Return True if a finger touches an object at a gap (m) that is much wider than the gap at which the hand held
-    the object before. The object then does not lie in the middle of the hand.
+    """Return True if a finger touches an object too early during closing, so that the object does not lie in the
+    middle of the hand. `gap` is the gap at the touch, and `kept` the much smaller gap at which the hand held the
+    object before (both in m).
     """
     return gap - kept > 2 * OFF_MIDDLE

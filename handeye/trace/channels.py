@@ -1,7 +1,7 @@
 """Defines the channels of a trace, each with its content and the schema of its messages.
 
-Robotics tools display the typed channels directly. The channel `/events` holds a lossless copy of each event,
-which handeye itself reads.
+Robotics tools display the typed channels directly. The channel `/events` holds a lossless copy of each event; handeye
+itself reads these copies.
 """
 
 from dataclasses import dataclass, replace

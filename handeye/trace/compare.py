@@ -1,5 +1,6 @@
-"""Compares two traces: finds their first difference, and whether they differ only in the last digits of
-numbers."""
+"""Compares two traces. Finds their first difference, and checks whether the traces differ only in the last digits of
+numbers.
+"""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -15,8 +16,9 @@ from handeye.trace.trace import Trace
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Repetition:
-    """The first difference between two traces that is more than rounding, and the first that is only rounding, each
-    described in a sentence. If there is neither, the traces are identical, byte for byte.
+    """The result of a comparison of two traces: two sentences. One describes the first difference that is more than
+    rounding, and the other describes the first difference that is only rounding. If both sentences are missing, the
+    traces are identical, byte for byte.
     """
 
     parts: str | None = None  # the first difference that is more than rounding
@@ -26,8 +28,8 @@ class Repetition:
 def compared(a: Trace, b: Trace, *, events: int | None = None, unseen: int = 0) -> Repetition:
     """Compare the contents of two traces, which may be compressed differently.
 
-    If `events` is given, compare only the first N events, where N is `events`, and the messages before and between
-    these events. Messages recorded before event number `unseen` are left out. The two runs may have used different
+    If `events` is given, stop after this number of events. Messages after the last compared event are then not
+    compared. Messages recorded before event number `unseen` are left out. The two runs may have used different
     processors and different versions of handeye.
     """
     if a.plan != b.plan:

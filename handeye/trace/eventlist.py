@@ -16,8 +16,8 @@ from handeye.program.events import AnyEvent, RunStarted, WentBack, to_line
 def read_events(path: Path, *, growing: bool = False) -> list[AnyEvent]:
     """Return the events in a file, including the events that were undone later because the run went back.
 
-    Raises BadFile if a line is not an event, if the last line is incomplete and `growing` is False, or if the run
-    does not begin at time 0.
+    Raises BadFile if a line is not an event, or if the run does not begin at time 0. If `growing` is False, also
+    raises BadFile if the last line is incomplete.
     """
     text = read_whole(path)
     if growing:
@@ -53,10 +53,8 @@ class Journal:
     event follows them."""
 
     def __init__(self, path: Path, events: Sequence[AnyEvent], *, again: bool) -> None:
-        """Begin a journal with these events, or resume one.
-
-        An incomplete last line is dropped. A journal in which some of the events are missing is started from
-        scratch.
+        """Open the journal of a run in which `events` have happened. An incomplete last line of the file is dropped.
+        If events are missing in the file, it is written again from the start.
         """
         self._owed: WentBack | None = None  # could not be written yet, because the disk was full
         self._file = LineFile(path, "another run", again=again)

@@ -23,8 +23,8 @@ class Forces(Brief):
     """The force that the hand exerts on its surroundings in n servo periods, and the guard of the motion.
 
     Vectors are in the axes that the task names (`AnyTask.force_axes`). The program estimates forces only during
-    guarded and compliant motions, relative to the force at the beginning of the motion. In all other periods
-    the values are NaN.
+    guarded and compliant motions. The zero of the estimate is the force at the beginning of the motion. In all other
+    periods the values are NaN.
     """
 
     times: Array  # ends of the servo periods, shape (n,), s
@@ -68,8 +68,8 @@ class Forces(Brief):
 
 
 def recorded_forces(times: Array, messages: Iterable[RawMessage]) -> Forces:
-    """Make the arrays from messages about the hand. There is one message for each servo period. Raises ValueError if
-    messages are missing.
+    """Make the arrays of a `Forces` from messages about the hand. There is one message for each servo period. Raises
+    ValueError if messages are missing.
     """
     told = [read_hand(message.data) for message in messages]
     if len(told) != len(times):

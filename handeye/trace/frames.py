@@ -65,7 +65,7 @@ def _add(entity: SceneEntity, truth: Truth, shape: int) -> None:
 
 
 def _short(values: Array) -> list[float]:
-    """Return the numbers rounded to seven digits, which keeps files small."""
+    """Return the numbers rounded to seven digits, to keep files small."""
     return [float(value) for value in values.astype(np.float32)]
 
 
@@ -95,8 +95,8 @@ class Frames:
         return np.concatenate([data.xpos[1:], data.xquat[1:]], axis=1, dtype=np.float32, casting="same_kind")
 
     def there(self) -> Mask:
-        """Return a mask, shape (n,). The mask is False for a body that appears only after an event, while the event
-        has not happened yet. The mask is True for all other bodies, even if they are put away.
+        """Return a mask, shape (n,). Some bodies appear only after an event; before this event, the mask is False for
+        them. The mask is True for all other bodies, even if they are put away.
         """
         there: Mask = self._truth.model.geom_group[self._looks] != LATENT
         return there

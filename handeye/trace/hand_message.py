@@ -83,8 +83,8 @@ def hand_schema() -> bytes:
 
 
 def in_one_piece(kind: type[Record]) -> bytes:
-    """Return the JSON schema of a record without internal references, because some tools do not follow such
-    references.
+    """Return the JSON schema of a record. The schema has no internal references, because some tools do not follow
+    them.
     """
     whole = msgspec.json.schema(kind)
     return msgspec.json.encode(_in_place(whole, whole["$defs"]), order="sorted")

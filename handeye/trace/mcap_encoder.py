@@ -102,8 +102,8 @@ class McapEncoder:
         self._records += head + data
 
     def part(self) -> bytes:
-        """Encode those messages of the chunk in progress that no earlier part contains. Returns no bytes if there are
-        no such messages.
+        """Encode the messages that were added to the chunk in progress since the last part. Returns no bytes if no
+        message was added.
         """
         chunk = self._chunk(self._partly)
         if chunk is None:

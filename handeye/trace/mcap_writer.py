@@ -36,9 +36,9 @@ of its size.
 class GrowingFile:
     """A trace that is being written. The first write error raises CannotWrite.
 
-    A chunk ends after `CHUNK` bytes, after the start of the run, and at the end of each stage. Because chunks do not
-    depend on the time of writing, equal messages give equal bytes. A sync writes parts of the chunk in progress. The
-    whole chunk later replaces these parts.
+    A new chunk begins when the present chunk has `CHUNK` bytes. A new chunk also begins after the message that starts
+    the run, and at the end of each stage. Because chunks do not depend on the time of writing, equal messages give
+    equal bytes. A sync writes parts of the chunk in progress. The whole chunk later replaces these parts.
     """
 
     def __init__(self, file: Path) -> None:

@@ -71,8 +71,8 @@ class FramesMessage:
         self._message = lru_cache(maxsize=_SETS)(self._empty)
 
     def filled(self, time: int, which: list[int], poses: list[list[float]]) -> bytes:
-        """Encode poses of frames. `which` has the number of the frame for each pose, and each pose has seven
-        components, in the order of `Poses`.
+        """Encode poses of frames. `which` contains the frame number of each pose. Each pose has seven components, in
+        the order of `Poses`.
         """
         seconds, nanos = divmod(time, SECOND)
         message, frames = self._message(tuple(which))

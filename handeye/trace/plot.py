@@ -141,8 +141,8 @@ def _channels(trace: Trace, begin: float, end: float) -> Iterator[Panel]:
 
 
 def _marks(trace: Trace, begin: float, end: float) -> Iterator[Mark]:
-    """Yield a mark for each kind of event, with the times of these events. Subclasses of `SystemEvent` are named by
-    their class.
+    """Yield a mark for each kind of event. The mark holds the times of all events of this kind. Subclasses of
+    `SystemEvent` are named by their class.
     """
     own = {type(event).__name__: type(event) for event in trace.events if isinstance(event, SystemEvent)}
     for name, kind in {**_MARKED, **own}.items():

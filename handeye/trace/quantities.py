@@ -1,4 +1,4 @@
-"""Finds the first quantity in which two messages of a trace differ, and describes the difference in words."""
+"""Finds the first quantity that has different values in two messages, and describes the difference in words."""
 
 from collections.abc import Callable, Iterator, Mapping
 from itertools import zip_longest
@@ -42,8 +42,8 @@ class QuantityDifference(Record, frozen=True, kw_only=True):
 def differing(
     a: RawMessage | None, b: RawMessage | None, arm: ArmModel | None = None, *, rounded: bool = False
 ) -> QuantityDifference | None:
-    """Return the first quantity, except times, in which two messages on a channel differ, or None if no quantity
-    differs.
+    """Return the first quantity that has different values in two messages on a channel. Times do not count. Returns
+    None if no quantity differs.
 
     A message is None if its run has no message at this point. `arm` is the arm whose joints the messages describe;
     without `arm`, units are unknown. If `rounded` is True, differences in the last digits do not count.
@@ -67,8 +67,8 @@ def has_quantities(message: RawMessage) -> bool:
 
 
 def differing_events(a: AnyEvent, b: AnyEvent) -> QuantityDifference | None:
-    """Return the first quantity, except times, in which two events of the same kind differ, or None if no quantity
-    differs.
+    """Return the first quantity that has different values in two events of the same kind. Times do not count. Returns
+    None if no quantity differs.
     """
     plain = msgspec.to_builtins(a)
     found = next(_differing(_event(plain), _event(msgspec.to_builtins(b))), None)

@@ -29,8 +29,8 @@ TRACE: Final = Kind("trace", re.escape(MCAP0_MAGIC), ending=".mcap")
 
 
 def read_trace(path: Path, *, lenient: bool = False) -> Trace:
-    """Read a trace from a file. Raises BadFile if the trace is invalid, does not fit its plan, or is incomplete and
-    `lenient` is False.
+    """Read a trace from a file. Raises BadFile if the trace is invalid or does not fit its plan. An incomplete trace
+    also raises BadFile, unless `lenient` is True.
     """
     return read_trace_as(Trace, path, lenient=lenient)
 
@@ -103,8 +103,9 @@ def plan_of(trace: Trace) -> Plan:
 
 
 def stage_names(trace: Trace) -> tuple[str, ...]:
-    """Return the names of all stages of the program or, for a system without plans of motions, of the stages
-    that began."""
+    """Return the names of all stages of the program. If the system has no plans of motions, return only the names of
+    the stages that began.
+    """
     if "plans" in entry_named(trace.head.system).can:
         return plan_of(trace).program.stages
     return tuple(dict.fromkeys(stage.name for stage in trace.stages))

@@ -35,7 +35,9 @@ def part(path: Path) -> Path:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PictureSource:
-    """Provides a program's picture, and the marks on the picture, when an event concerns that picture."""
+    """Provides the pictures of the program, and the marks on them. The recorder asks for them when an event concerns a
+    picture.
+    """
 
     picture: Callable[[str], Picture]  # the latest picture with this name
     found: Callable[[], tuple[str, Sequence[Mark]]]  # picture and marks that the present step found
@@ -60,8 +62,8 @@ class Recorder:
     ) -> None:
         """Begin a trace. An unfinished trace of another run at this path is replaced.
 
-        `plan` is the content of `plan.json`. To resume a trace, give its content as `old`, and the events with which
-        it begins as `prefix`. The content may be incomplete.
+        `plan` is the content of `plan.json`. To resume a trace, give its content as `old`, and its first events as
+        `prefix`. The content may be incomplete.
         """
         self._path, self._frames, self._looks, self._plan = path, frames, looks, plan
         self._waiting: list[tuple[ServoPeriod, Poses, Mask]] = []
@@ -132,7 +134,7 @@ class Recorder:
         self._writing.file.sync()
 
     def cut(self, events: int) -> None:
-        """Keep the first N events, where N is `events`, and remove everything after them."""
+        """Remove everything after event number `events`."""
         old = self._writing
         if not old.file.broken:
             old.file.sync()
@@ -164,8 +166,9 @@ class Recorder:
             self._writing.periods(waiting)
 
     def _copied(self, old: bytes, events: int, head: RunStarted | None) -> TraceWriter:
-        """Begin a new file with the content of an old one up to event number `events`. The new file replaces
-        the old one."""
+        """Begin a new file, and copy into it the beginning of an old file, up to event number `events`. The new file
+        replaces the old file.
+        """
         file = GrowingFile(self._path.with_name(f".{self._path.name}.new"))
         writing = TraceWriter(file, self._frames, self._plan)
         try:

@@ -30,7 +30,7 @@ class TakenPicture(Brief):
 
 
 def read_pictures(messages: Iterable[RawMessage]) -> Iterator[TakenPicture]:
-    """Yield the pictures in messages, in the order of the messages. The event that follows a picture gives the
+    """Yield the pictures that the messages contain, in the same order. The event that follows a picture gives the
     picture's name.
     """
     picture: Picture | None = None
@@ -66,7 +66,9 @@ class Motion(Brief):
 
 
 def read_motion(messages: Iterable[RawMessage]) -> Motion:
-    """Make the arrays from messages about joints. Raises ValueError if the messages describe more than one arm."""
+    """Make the arrays of a `Motion` from messages about joints. Raises ValueError if the messages describe more than
+    one arm.
+    """
     times, rows, names = [], [], None
     for message in messages:
         joints = JointStates.FromString(message.data).joints
@@ -100,8 +102,8 @@ class ChannelCurve(Brief):
 
 
 def read_channels(messages: Iterable[RawMessage]) -> tuple[ChannelCurve, ...]:
-    """Read from messages the curves of all channels, one curve for each component. Raises DecodeError if a message is
-    invalid.
+    """Return the curves of all channels that the messages contain, one curve for each component. Raises DecodeError if
+    a message is invalid.
     """
     found: dict[tuple[str, str], list[tuple[float, float]]] = {}
     for message in messages:
@@ -156,8 +158,8 @@ class Replay:
         self.names, self.poses = _placed(moves(messages), len(motion.times))
 
     def seek(self, time: float) -> Moment:
-        """Return the state at a time (s). A time before the first or after the last servo period gives the
-        first or the last state.
+        """Return the state at a time (s). For a time before the first servo period, return the first state. For a time
+        after the last servo period, return the last state.
         """
         row = max(bisect_right(self._motion.times, time) - 1, 0)
         told = bisect_right(self._told, time, key=lambda telling: telling.time) - 1
@@ -180,8 +182,8 @@ class Replay:
 
 
 def moves(messages: Iterable[RawMessage]) -> Iterable[tuple[int, dict[str, Pose7]]]:
-    """Yield the recorded poses: the number of the servo period (0 before the first one), and the poses of the
-    frames that moved.
+    """Yield, for each message about frames, the number of the servo period, counted from 0, and the poses of the
+    frames that moved. A message before the first period has the number 0.
     """
     row = -1
     for message in messages:

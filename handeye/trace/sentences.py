@@ -205,7 +205,7 @@ def _faint(event: happened.GuardFaint) -> str:
 
 
 def _beyond(said: str, si: float, unit: str) -> Callable[[happened.GuardTripped], str]:
-    """Return a function that describes, in a sentence, a sensed value and the limit that it exceeds."""
+    """Return a function that makes a sentence about a tripped guard: a sensed value exceeds its limit."""
 
     def sentence(event: happened.GuardTripped) -> str:
         felt, limit = distinct_digits([event.value / si, event.limit / si], 1)

@@ -217,7 +217,9 @@ def export_tables(
 
 
 def check_tables(path: Path, kind: Format) -> None:
-    """Raise CannotWrite or MissingExtra if tables of this format cannot be written to a folder."""
+    """Check that tables can be written to a folder in the format `kind`. Raises CannotWrite if the folder does not
+    allow it, and MissingExtra if a package is not installed.
+    """
     check_folder(path, EXPORT, overwrite=True)
     _WRITERS[kind](Table(name="", about="", columns=()))
 

@@ -122,7 +122,7 @@ class Trace:
         script.
 
         Args:
-            line: number of the line in the script, or, for a line of a required file, a text such as
+            line: number of the line in the script. For a line of a required file, give a text such as
                 `"pins.al:12"`. All executions of the line are included. A motion belongs to its own line, not
                 to the line of its `STOP`.
 
@@ -194,8 +194,8 @@ class Trace:
                 `fine`.
 
         Raises:
-            InvalidInput: `at` refuses the time, the size or the number of exposures is out of range, there is no such
-                camera or film, or OpenGL is missing.
+            InvalidInput: the size or the number of exposures is out of range, there is no such camera or film, OpenGL
+                is missing, or the time is one that `at` refuses.
         """
         from handeye.cell.exposures import exposing, photographed
         from handeye.cell.posed import posed

@@ -53,7 +53,7 @@ def run_plan(
             of views.
         halt: the panic button, polled in every servo period.
 
-    Raises InvalidInput if the plan was made for another arm, or if the limits or the camera cannot be used; raises
+    Raises InvalidInput if the plan was made for another arm, or if the limits or the camera cannot be used. Raises
     Halted if the panic button is pressed before the working phase.
     """
     setup = Setup(
@@ -83,8 +83,8 @@ def run_on(
     halt: Callable[[], bool] = lambda: False,
     operator: Operator = NOBODY,
 ) -> FinishedRun:
-    """Continue a run from a checkpoint, which may be the one at the beginning of the run, and let the referee
-    judge the result. The arguments are those of `run_plan`.
+    """Continue a run from a checkpoint, and let the referee judge the result. The checkpoint may be at the beginning
+    of the run. The arguments are those of `run_plan`.
     """
     metered = meter or Meter()
     runner = Runner(

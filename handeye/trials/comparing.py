@@ -15,15 +15,13 @@ Key = tuple[str, int, int]  # Condition, seed, and index of the trial in that wo
 
 
 class Difference(Record, frozen=True, kw_only=True):
-    """The difference between two batches in a measured value. Only pairs of trials in which both trials succeeded
-    count.
-    """
+    """The difference between two batches in a measured value. A pair of trials counts only if both trials succeeded."""
 
     pairs: int
     more: float  # Median, over the pairs, of the value in this batch minus the value in the first batch
     p: float
-    """Two-sided p-value of Wilcoxon's signed-rank test. If neither batch were better, differences that favour one
-    batch at least as strongly as the measured differences would occur with the probability `p`.
+    """Two-sided p-value of Wilcoxon's signed-rank test. If neither batch were better, `p` would be the probability of
+    differences that favour one batch at least as strongly as the measured differences.
     """
 
 
@@ -52,8 +50,8 @@ class PairedTrial(NamedTuple):
 
 
 def paired(names: Sequence[str], batches: Sequence[Batch]) -> tuple[PairedBatch, ...]:
-    """Compare each later batch with the first batch. Raises InvalidInput if a later batch is of another kind than the
-    first, or if it comes from a version of handeye in which the same seeds give different worlds.
+    """Compare each later batch with the first batch. All batches must be of the same kind. They must also come from
+    versions of handeye in which the same seeds give the same worlds. If not, this function raises InvalidInput.
     """
     first_head = batches[0][0]
     for name, (head, _) in zip(names, batches, strict=True):

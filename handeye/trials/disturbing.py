@@ -101,13 +101,14 @@ def disturbed(plan: Plan, world: WorldSpec, camera: str, name: str) -> Disturban
     met = [event.force for event in runner.events[begun:] if isinstance(event, UndoFinished)]
     cause = None if runner.call is None else runner.call.cause
     wrong = "; ".join(check.told for check in result.referee.values() if check.refuses)
+    judged = wrong or "the arm undid all its work, and every part is back in its place"
     return DisturbanceResult(
         name=name,
         built=True,
         stopped=runner.call is not None and brakes_hold(runner.arm_cell),
         at=undone[-1].text if undone else "",
         line=undone[-1].place if undone else "",
-        message=result.message if runner.call is not None else wrong or "all undone, and every part is back",
+        message=judged if runner.call is None else result.message,
         moved=round(moved, 3),
         part=part,
         felt=round(max([*met, cause.force] if isinstance(cause, UndoResisted) else met, default=0.0), 2),

@@ -45,7 +45,7 @@ summary.
 
 
 def eye_sweep(name: str, trial: Trial[Any]) -> Sweep[EyeRow]:
-    """Return the sweep for the trial `trial`, which its task lists under the name `name`."""
+    """Return the sweep for `trial`. `name` is the name of this trial in the list of its task."""
 
     def attempts(rows: Sequence[EyeRow]) -> list[Attempt]:
         found = [msgspec.convert(row.attempt, trial.attempt) for row in rows if row.attempt]
@@ -67,7 +67,7 @@ def eye_sweep(name: str, trial: Trial[Any]) -> Sweep[EyeRow]:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class EyeWork:
-    """Makes the attempts of a task's trial that runs no program. The attempts of a case share a world and its camera
+    """Makes the attempts of a trial without a program. All attempts of one case share a world and its camera
     calibration.
     """
 

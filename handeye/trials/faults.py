@@ -42,8 +42,8 @@ UNDETECTED: tuple[Outcome, ...] = ("unnoticed", "unbraked", "silent")
 
 PANIC: Final = FaultKind(
     name="panic",
-    meaning="A person presses the panic button while the arm moves. In a run, press Ctrl-C; the option --fault does "
-    "not accept the panic button.",
+    meaning="A person presses the panic button while the arm moves. The option --fault does not accept the panic "
+    "button; to press it in a run, press Ctrl-C.",
     usual_stage=4,
     expected=ExpectedDetection(calls=("stopped by the panic button; the brakes are set",)),
 )
@@ -122,8 +122,9 @@ class FaultRow(TrialRow, frozen=True, kw_only=True):
 
 
 def chosen(catalogue: Catalogue, names: Sequence[str]) -> list[FaultKind]:
-    """Return the faults with these names or in these groups. If `names` is empty, return the faults that are tried by
-    default: the faults of the task's matrix. Raises InvalidInput for an unknown name.
+    """Return the faults that `names` selects. A name is the name of a fault or of a group of faults. If `names` is
+    empty, return the faults that are tried by default: the faults of the task's matrix. Raises InvalidInput for an
+    unknown name.
     """
     found = [kind for name in names or catalogue.matrix for kind in catalogue.select(name)]
     return list({kind.name: kind for kind in found}.values())
@@ -131,16 +132,15 @@ def chosen(catalogue: Catalogue, names: Sequence[str]) -> list[FaultKind]:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FaultWork:
-    """Executes a plan once for each fault. The condition of a case is the fault in the form in which users type
-    it."""
+    """Executes a plan once for each fault. The condition of a case is the fault as users type it."""
 
     plan: Plan
     world: WorldSpec  # World of every case, without its seed and fault
     faults: Mapping[str, Fault]
     camera: str
     sound: Path | None = None
-    """Folder of the fault-free runs. A fault may begin later than the first stage. The run with this fault then starts
-    from a checkpoint of a fault-free run. If the folder is None, every run starts at its beginning.
+    """Folder of the fault-free runs. If a fault begins after the first stage, its run starts from a checkpoint of a
+    fault-free run. If the folder is None, every run starts at its beginning.
     """
 
     def __call__(self, case: Case) -> list[FaultRow]:
@@ -158,8 +158,8 @@ class FaultWork:
         return [FaultRow(trial=case.trials[0], seed=case.seed, condition=case.condition, tried=tried)]
 
     def _start(self, world: WorldSpec, faults: tuple[Fault, ...], stage: int | None) -> Checkpoint:
-        """Return the start of a run with these faults: if possible, the stored state before the stage in which the
-        faults begin.
+        """Return the start of a run with `faults`. If runs without faults are stored, the run starts from a stored
+        state: the state before `stage`, in which the faults begin. If not, the run starts from the beginning.
         """
         setup = Setup(plan=self.plan, world=world, camera=self.camera)
         if self.sound is None or stage is None:
@@ -172,7 +172,7 @@ class FaultWork:
 def usual(
     catalogue: Catalogue, kinds: Sequence[FaultKind], stage: int | None, stages: int
 ) -> dict[str, Fault]:
-    """Return the faults at their usual sizes. The keys are the faults in the form in which users type them. If a fault
+    """Return the faults at their usual sizes. The keys are the faults as users type them. If a fault
     can begin during a run, it begins at the stage `stage` or, if `stage` is None, at the usual stage of the fault.
     `stages` is the number of stages of the program.
     """

@@ -46,8 +46,9 @@ def rate(successes: int, trials: int) -> Rate:
 
 
 def mcnemar(only_first: int, only_second: int) -> float:
-    """Return the two-sided p-value of McNemar's exact test: if neither batch is better, the probability that the pairs
-    with different outcomes divide between the batches at least as unequally as these pairs do.
+    """Return the two-sided p-value of McNemar's exact test. The test counts the pairs in which only the first trial
+    succeeded, and the pairs in which only the second trial succeeded. The p-value is the probability, for equally good
+    batches, that the two counts differ at least as much as the given counts.
     """
     from scipy.stats import binomtest
 
@@ -56,8 +57,8 @@ def mcnemar(only_first: int, only_second: int) -> float:
 
 
 def signed_rank(differences: Sequence[float]) -> float:
-    """Return the two-sided p-value of Wilcoxon's signed-rank test. This is the probability, if neither batch is
-    better, of differences that favour one of the batches at least as strongly as `differences`.
+    """Return the two-sided p-value of Wilcoxon's signed-rank test. If neither batch is better, the p-value is the
+    probability that the differences favour one of the batches at least as strongly as `differences`.
     """
     from scipy.stats import wilcoxon
 

@@ -102,8 +102,9 @@ def head_of(
     settings: Mapping[str, str] | None = None,
     **more: Any,
 ) -> Head:
-    """Return the head of a batch whose trial 0 is in this world. Raises InvalidInput if the installation is
-    incomplete."""
+    """Return the head of a batch. The first trial of the batch, with number 0, is made in `world`. Raises InvalidInput
+    if the installation is incomplete.
+    """
     if plan is not None:
         more |= {"plan": plan_digest(plan), "program": plan.program.name}
     more |= {"settings": dict(settings or {}), "versions": versions(), "code": code_digest()}

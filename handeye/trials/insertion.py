@@ -56,7 +56,7 @@ def bench() -> InsertionTask:
 
 
 class Condition(Record, frozen=True, kw_only=True):
-    """The condition of a trial: the hole, the spread of its position error, and the kind of search."""
+    """The condition of a trial: the hole, the spread of the hole's position error, and the kind of search."""
 
     clearance: float = CLEARANCE  # Clearance of the hole in diameter, mm
     chamfer: float = CHAMFER  # mm
@@ -163,7 +163,7 @@ class InsertionRow(TrialRow, frozen=True, kw_only=True):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class InsertionWork:
-    """Executes the trials of a case under the case's condition, which is given by its name."""
+    """Executes the trials of a case. The case gives the name of its condition."""
 
     conditions: Mapping[str, Condition]
 
@@ -208,8 +208,8 @@ def trials_in_world(condition: Condition, last: InsertionTrial) -> list[Insertio
 
 
 def fetched(plan: Plan, seed: int) -> Runner:
-    """Execute a run in the world of a seed until its second stage begins. The hand then holds the pin. The run may
-    also stop before its second stage.
+    """Begin a run in the world of a seed, and stop when the second stage of the run begins. The hand then holds the
+    pin. The run may also stop before its second stage.
     """
     world = WorldSpec(seed=seed, overrides=Overrides(set=Condition().hole))
     setup = Setup(plan=plan, world=world, camera="ray")
@@ -279,7 +279,7 @@ def _told(runner: Runner) -> str:
 
 @cache
 def _plan(search: Search, step: float) -> Plan:
-    """Return the plan of a program of the bench with a given search step (inches)."""
+    """Plan the bench's program for the kind of search `search`, with the search step `step` (inches)."""
     file = plans() / bench().programs[search]
     written = read_source(file)
     source = Source(name=written.name, text=written.text.replace(_WRITTEN_STEP, f"SEARCH  {step:g}"))

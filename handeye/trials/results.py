@@ -105,8 +105,9 @@ def assemble_each(
         camera: renderer of the TV camera: `auto`, `gl` or `ray`.
         search: search pattern, as for `handeye.begin`.
         referee: referee or limits, as for `handeye.begin`.
-        jobs: number of parallel processes. If there is more than one process, the calling program must be guarded by
-            `if __name__ == "__main__":`, `search` cannot be Python code, and `referee` can only be a set of limits.
+        jobs: number of parallel processes. If there is more than one process, guard the calling program with `if
+            __name__ == "__main__":`. In this case, `search` cannot be Python code, and `referee` must be a set of
+            limits.
 
     Returns:
         a table of results in the order of the worlds.

@@ -38,13 +38,13 @@ class SoundRun:
     stages: tuple[int, ...]  # Stage, numbered from 1, in which each of these lies
 
     def at(self, position: int) -> Checkpoint:
-        """Return the last stored state before which the run did at most `position` steps. Raises InvalidInput if there
-        is no such state.
+        """Return the last stored state that the run reached after at most `position` steps. Raises InvalidInput if
+        there is no such state.
         """
         found = self.store.at_or_before(position)
         if found is None or found.snapshot is None:
             raise Refused(
-                f"a schedule cannot begin after {counted(position, 'step')}: up to there, the run stored no state"
+                f"a schedule cannot begin after {counted(position, 'step')}: no state of the run was stored by then"
             )
         return found
 
@@ -96,8 +96,8 @@ def sound_run(folder: Path, of: Setup, world: WorldSpec, every: int | None = EVE
 
 
 def _begun(store: CheckpointStore, stages: Sequence[str]) -> Iterator[tuple[int, int]]:
-    """Yield each number of steps after which a schedule can begin, together with the number of the stage in which the
-    schedule then begins.
+    """Yield the points of the run at which a schedule can begin. Each point is given by the number of steps done
+    before it, and by the number of its stage.
 
     If the program has only one stage, no schedule begins near the end of the program, because a resumed run may have
     to undo the work of the stage.

@@ -2,9 +2,10 @@
 computed over all of them.
 
 A kind is a value of type `Sweep`. A kind defines the record of a trial, the class of each outcome, and the tables made
-from many trials. Everything else is common to all kinds, and is in other modules: `folder` (an interrupted sweep can
-continue from its folder), `figures` (statistics with their confidence intervals), `text` (the output on the terminal),
-`page` (the HTML page), `tables` (tables for other programs), and `comparing` (the comparison of batches).
+from many trials. Everything else is common to all kinds, and is in other modules. `figures` computes the statistics
+with their confidence intervals. `text` makes the output on the terminal, `page` the HTML page, and `tables` the tables
+for other programs. `comparing` compares batches. `folder` stores the sweep; an interrupted sweep can continue from its
+folder.
 """
 
 from collections.abc import Callable, Generator, Mapping, Sequence
@@ -143,8 +144,8 @@ class Details:
     name: str  # Name of the table and of its key in the JSON
     title: str
     rows: Sequence[Record]
-    """Flat records, whose fields are the columns. Fields that end in `_share` are fractions of 1, fields in `_s`
-    are seconds.
+    """Flat records, whose fields are the columns. Fields that end in `_share` are fractions of 1. Fields that end in
+    `_s` are seconds.
     """
     heads: tuple[str, ...]
     span: tuple[str, str, str] | None = None
@@ -293,8 +294,9 @@ def carry_out(
 
 
 def rows_of(sweep: Sweep[R], answer: Answer[Case, list[R]]) -> list[R]:
-    """Return the rows of a case, even if the case was lost with its process. Raises errors that did not come
-    from the trials."""
+    """Return the rows of a case. If the process of the case was killed, the rows record only this. Raises errors that
+    did not come from the trials.
+    """
     if answer.error is not None:
         raise answer.error
     if answer.value is not None:

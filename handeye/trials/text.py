@@ -137,8 +137,8 @@ def _place(stage: str, line: str | None = None) -> str:
 
 
 def comparison(first: str, found: Sequence[PairedBatch]) -> RenderableType:
-    """Compare each batch with the first one. The table shows the success rates. Where the same trial succeeded in both
-    batches, it also shows the differences of the measured values.
+    """Compare each batch with the first one. The table shows the success rates. For trials that succeeded in both
+    batches, the table also shows the differences of the measured values.
     """
     rates = PlainTable(
         (f"compared with {first}",),

@@ -93,8 +93,8 @@ def answers(
     """Yield the answers for all items, in the order in which the items end. The worker processes end when the
     caller ends.
 
-    If the process of a trial is killed, the trial is repeated once in a new process. A trial is stopped when it
-    has used more than `limit_s` seconds of CPU time; time in which the process is paused or waits for the
+    If the process of a trial is killed, the trial is repeated once in a new process. A trial is stopped when it has
+    used more than `limit_s` seconds of CPU time. The time during which its process is paused or waits for the
     processor does not count.
     """
     todo = deque(_Assignment[Item](item=item) for item in items)
@@ -205,8 +205,8 @@ def _serve(there: Connection, limit_s: float | None) -> None:
 
 @contextmanager
 def _limited(limit_s: float | None) -> Iterator[None]:
-    """Within this context, let the operating system end this process after the process has used `limit_s` more seconds
-    of CPU time.
+    """Limit the CPU time of this process. If the process uses more than `limit_s` seconds within this context, the
+    operating system ends it.
     """
     if limit_s is None or not hasattr(signal, "setitimer"):  # as on Windows
         yield

@@ -1,1 +1,3 @@
-"""Makes videos of recorded runs: moments, views, captions and file formats."""
+"""Makes videos of recorded runs. The modules of this package choose moments and views, draw captions, and write the
+file formats.
+"""

@@ -29,7 +29,7 @@ _FONT: Final = cv2.FONT_HERSHEY_SIMPLEX
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Caption:
-    """What the caption of a frame says."""
+    """The content of a frame's caption."""
 
     words: str
     clock: str

@@ -1,5 +1,4 @@
-"""Video formats: animated WebP and WebM, which OpenCV writes, and MP4, which needs the optional dependency
-`mp4`."""
+"""Video formats: animated WebP, WebM and MP4. OpenCV writes WebP and WebM. MP4 needs the optional dependency `mp4`."""
 
 import os
 import re
@@ -46,8 +45,8 @@ def webp(frames: Frames, held: int) -> bytes:
 
 
 def settled(frames: Frames) -> Frames:
-    """Yield the frames without their small changes: a block of pixels changes only when it differs enough from the
-    block that was last shown in its place.
+    """Yield the frames without small changes. A block of pixels is replaced only when the new block differs enough
+    from the shown block.
 
     libwebp leaves out blocks that resemble the blocks of the previous frame. Without this function, slow changes
     would never be shown.
@@ -172,7 +171,7 @@ class Format:
 
 
 def format_of(path: Path) -> Format:
-    """Return the format for a file name. Raises BadArgument if the file extension is not that of a video format."""
+    """Return the format for a file name. Raises BadArgument if no video format has the file's extension."""
     ending = path.suffix.lower()
     if ending == ".mp4":
         try:

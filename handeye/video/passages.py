@@ -33,8 +33,8 @@ class Passage:
 
 
 def passages(trace: Trace, span: Span, *, looks: bool) -> tuple[Passage, ...]:
-    """Return the passages of a time span. Waits for the camera are left out. If `looks` is True, the video stops at
-    pictures.
+    """Return the passages of a time span. Times during which the program waits for the camera are left out. If `looks`
+    is True, the video stops at pictures.
     """
     pictures = _pictures(trace) if looks else {}
     edges = sorted({*pictures, *(stage.begin for stage in trace.stages_both_ways)})
@@ -56,7 +56,7 @@ def _pictures(trace: Trace) -> dict[float, SeenPicture]:
 
 
 def _without_waits(trace: Trace, span: Span) -> Iterator[Span]:
-    """Cut the waits for the camera out of a span, and yield what remains of it."""
+    """Yield the parts of a span in which the program does not wait for the camera."""
     begin, end = span
     for event in trace.events:
         if isinstance(event, CameraBusy) and event.seconds > MAX_WAIT_S:
@@ -76,13 +76,14 @@ def _pieces(spans: Iterable[Span], edges: list[float]) -> Iterator[Span]:
 
 
 def at_speed(shown: tuple[Passage, ...], speed: float) -> Array:
-    """Return the durations of the passages in the video (s), shape (n,), if the run is shown `speed` times
-    faster."""
+    """Return how long the video shows each passage (s), shape (n,). The run is shown at `speed` times its real
+    speed.
+    """
     return _took(shown) / speed + _LOOK * _still(shown)
 
 
 def within(shown: tuple[Passage, ...], seconds: float) -> Array:
-    """Return the durations of the passages in the video (s), shape (n,), if the whole video lasts `seconds`.
+    """Return how long the video shows each passage (s), shape (n,). The whole video lasts `seconds`.
 
     All passages have the same speed, except those of short stages, which are slower so that they can be seen.
     """

@@ -167,8 +167,8 @@ def storyboard(trace: Trace, wanted: VideoRequest) -> Storyboard:
 
 
 def _times(chosen: Sequence[Passage], over: Array) -> list[float]:
-    """Return, for each passage, the time of the run (s) at which a fraction of the passage has been shown. `over`
-    gives these fractions.
+    """Return a time of the run (s) for each passage. At this time, the fraction `over` of the passage has been shown;
+    `over` has one value for each passage.
     """
     spans = np.array([(passage.begin, passage.end) for passage in chosen])
     return list((spans[:, 0] + over * np.ptp(spans, axis=1)).tolist())

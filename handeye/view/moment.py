@@ -1,5 +1,5 @@
-"""Copies the present state of a run and the television picture for viewers, so that viewers cannot change the
-run.
+"""Makes copies for viewers: of the present state of a run, and of the television picture. Because viewers receive only
+copies, they cannot change the run.
 """
 
 from collections.abc import Sequence

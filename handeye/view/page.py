@@ -1,5 +1,5 @@
-"""Builds the page of a live cell. The page shows the 3D view and the script as the report does, and the server updates
-both. The page also has a log of replies and a command line.
+"""Builds the page of a live cell. The page shows the 3D view and the script in the same form as the report. The server
+updates the view and the script during the run. The page also has a log of replies and a command line.
 """
 
 from collections.abc import Iterator, Sequence
@@ -24,8 +24,8 @@ from handeye.view.moment import FIGURES, Newest
 
 _MARK: Final = "<!DOCTYPE html>\n"
 _POLICY: Final = ("connect-src 'self'", "base-uri 'none'", "form-action 'none'")
-"""Permissions that the page has in addition to those of the report: the page may communicate with its own server, but
-with no other server.
+"""Directives of the content security policy that the page of a report does not have. This page may communicate with
+its own server, but with no other server.
 """
 
 
@@ -141,8 +141,8 @@ def _talk(listener: str) -> Markup:
 
 
 def _axes(runner: Runner) -> list[tuple[str, str, float, float, float]]:
-    """Return the name of each joint, its unit, the SI value of this unit, and its limits in this unit; empty if the
-    task does not describe its arm.
+    """Return, for each joint, its name, its unit, the unit's value in SI units, and the joint's limits in its unit.
+    The list is empty if the task does not describe its arm.
     """
     arm = getattr(runner.task, "arm", None)
     if not isinstance(arm, ArmModel):

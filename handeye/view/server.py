@@ -64,7 +64,7 @@ class Server:
     """
 
     def __init__(self, link: Link, port: int = 0) -> None:
-        """Take the port with this number, or any free port if `port` is 0. Raises InvalidInput if the port is in
+        """Take the port number `port`, or any free port if `port` is 0. Raises InvalidInput if the port is in
         use or unavailable.
         """
         self.link = link

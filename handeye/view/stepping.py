@@ -54,8 +54,8 @@ def _controls() -> Markup:
 
 
 def drive(stepper: Stepper, link: Link, aside: Callable[[], AbstractContextManager[None]]) -> Pause:
-    """Execute lines until the user leaves the run. Returns the reason why the run paused. The context `aside` is
-    entered while the function waits for a line.
+    """Execute lines until the user leaves the run. Returns the last pause of the run, with its reason. The context
+    `aside` is entered while the function waits for a line.
     """
     session = stepper.session
     session.output = LiveJson(session.runner, link.tell)

@@ -109,7 +109,7 @@ def _naming(parts: Iterable[str]) -> Markup:
 
 
 class Watch:
-    """The observers of a workplace. The observers stay the same when a new plan brings a new runner."""
+    """The observers of a workplace. Each plan has a new runner, but all runners have the same observers."""
 
     def __init__(self, link: Link, pace: Pace) -> None:
         self.newest: Newest | None = None  # None: no cell was built yet
@@ -117,7 +117,7 @@ class Watch:
         self._ear = LineInput(link.come, lambda line: link.tell(_refused(line)))
 
     def __call__(self, runner: Runner) -> list[Observer]:
-        """Return the observers for a runner, which may be the first or a later one."""
+        """Return the observers for the first runner or for a later runner."""
         if self.newest is None:
             self.newest = Newest(runner)
         else:

@@ -1,6 +1,6 @@
 """Vision: the three primitives of 1973 as a public interface, and the functions built on them.
 
-Names are loaded on first use, because a plan needs only the camera model and none of the primitives.
+Each name is imported when it is first used, because a plan needs only the camera model and none of the primitives.
 """
 
 from typing import TYPE_CHECKING

@@ -110,8 +110,8 @@ class Failure:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class GeneralLocation:
-    """Rough position of a part, to within an inch or two: its reference point (m in W). Only x and y are measured in
-    the picture; all other values are as planned.
+    """Rough position of a part: the position of the part's reference point (m in W), accurate to an inch or two. Only
+    x and y are measured in the picture; all other values are as planned.
     """
 
     box: BoundingBox  # box around the part in the picture
@@ -147,9 +147,9 @@ class SpecificLocation:
 
 
 def locate_general(picture: Picture, view: View, part: Part) -> GeneralLocation | Failure:
-    """Find the outline of a part in a picture of the region where the part may be. If the outline does not stand
-    out, because a shadow lies on the part, find its two large holes. Raises BadArgument if the part has no outline or
-    no region.
+    """Find the outline of a part in a picture of the region where the part may be. If a shadow lies on the part, the
+    outline may not stand out. In this case, find the two large holes of the part. Raises BadArgument if the part has
+    no outline or no region.
     """
     if part.region is None or part.outline is None:
         raise BadArgument("vision needs the region and the outline of a part, but one of them is missing")
@@ -226,8 +226,8 @@ def locate_specific(
 def _found(
     finders: list[HoleFinder], place: tuple[float, float], box: BoundingBox
 ) -> Iterator[tuple[HoleFinder, list[Candidate]]]:
-    """Yield candidates for the holes: first near the expected places, then anywhere in the box with each finder, and
-    last near the expected places again, in case a shadow covers the hole.
+    """Yield candidates for the holes: first near the expected places, then anywhere in the box with each finder. At
+    the end, search near the expected places again, in case a shadow covers a hole.
     """
     yield finders[0], finders[0].expected(place)
     for finder in finders:

@@ -1,5 +1,5 @@
-"""Beams. A beam finds the first edge along a ray. An edge is a discontinuity of intensity. All other primitives are
-built from beams, and from walks, which are beams along one line or column of the picture.
+"""Beams. A beam finds the first edge along a ray. An edge is a discontinuity of intensity. A walk is a beam along one
+line or column of the picture. All other primitives are built from beams and walks.
 
 A beam ends at its edge and reads no points beyond it.
 """
@@ -117,8 +117,9 @@ def _sums(scan: Scan, where: NDArray[np.intp], across: NDArray[np.intp] | None) 
 def _steepest(
     rise: Array, step: float, ahead: Array, beyond: float
 ) -> tuple[NDArray[np.bool_], NDArray[np.intp], NDArray[np.intp]]:
-    """Find, for each line, whether the intensity rises by at least `step`, to at least the intensity `beyond`. Also
-    find the first place of such a rise, and the steepest place near it.
+    """Return a mask of the lines on which the intensity rises. A rise counts if it is at least `step` and ends at an
+    intensity of at least `beyond`. Also return the first place of such a rise on each line, and the steepest place
+    near it.
     """
     n, last = np.arange(len(rise)), rise.shape[1] - 1
     strong = rise >= step
@@ -151,7 +152,7 @@ def _account(
 
 
 def _vertex(y: Array, i: NDArray[np.intp]) -> Array:
-    """Return the position of a vertex for each line, relative to index `i`, shape (n,). The vertex is that of the
+    """Return the position of a vertex for each line, relative to index `i`, shape (n,). This is the vertex of the
     parabola through the three values about index `i`. Positions are limited to the range from -.5 to .5.
     """
     n, last = np.arange(len(y)), y.shape[1] - 1

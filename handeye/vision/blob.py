@@ -150,7 +150,7 @@ class _Side:
     """One side of a growing box. For each side, the picture is turned so that line numbers increase outwards."""
 
     def __init__(self, scan: Scan, side: int) -> None:
-        """`side` is the index of the side among the four numbers of a box."""
+        """`side` is an index into a box: it selects the number that gives the place of this side."""
         self.number, self.upright, self.backwards = side, side % 2 == 0, side < 2
         self._clear: tuple[int, int, int] | None = None
         """The last search that found only background: the line from which it looked outwards, and the first and last
@@ -195,9 +195,9 @@ class _Side:
     def _turned_window(
         self, u: Array, v: Array, offset: Array
     ) -> tuple[list[float], list[float], list[float]]:
-        """Return the sides of the window in the coordinates of this side of the box, as three lists with one number
-        for each side of the window. The first list has the increments per line outwards, the second the increments per
-        point along the line, and the third the offsets.
+        """Convert the window to the coordinates of this object. Returns three lists, each with one number per side of
+        the window. The first list has the increments per line outwards, the second the increments per point along the
+        line, and the third the offsets.
         """
         outwards, along = (u, v) if self.upright else (v, u)
         if self.backwards:
@@ -219,8 +219,8 @@ class _Side:
         return low, high
 
     def _means(self, first: int, last: int, low: int, high: int) -> NDArray[np.float32]:
-        """Return the mean intensities of squares, shape (lines, places). The side of a square is SPAN points long, and
-        its middle is on one of the lines `first` to `last`.
+        """Return the mean intensities of squares, shape (lines, places). Each square is SPAN points wide, and the
+        middle of the square is on one of the lines `first` to `last`.
         """
         slab = self._image[first - 1 : last + 2, low : high + 1]
         wide = slab[:-2] + slab[1:-1]

@@ -1,5 +1,5 @@
-"""Calibrates the camera to the arm: the arm carries a lamp through the view of the camera, and the camera model is
-fitted to the spots in the pictures.
+"""Calibrates the camera to the arm. The arm carries a lamp through the view of the camera, and the camera model is
+fitted to the spots of the lamp in the pictures.
 
 The arm holds the lamp at known places, and the camera sees the lamp through both lenses. The fit uses these sightings,
 and priors that correspond to the accuracy of a careful mechanic. The error of the arm, about a tenth of an inch,

@@ -1,9 +1,9 @@
 """The television camera model: a pan/tilt mount, a two-lens turret, a raster of points.
 
-Camera frame C has x along the lines (in the direction of increasing column u), y down the picture (increasing row
-v), and z forward. Coordinates (u, v) of the picture start at the centre of the first point of the first line. At
-pan 0 and tilt 0 the camera looks along -y of the table; positive pan turns it counter-clockwise seen from above,
-positive tilt turns it downwards.
+Camera frame C has x along the lines (in the direction of increasing column u), y down the picture (increasing row v),
+and z forward. Coordinates (u, v) of the picture start at the centre of the first point of the first line. At pan 0 and
+tilt 0, the camera looks along -y of the table. Positive pan turns the camera counter-clockwise, seen from above.
+Positive tilt turns the camera downwards.
 """
 
 import math
@@ -55,8 +55,8 @@ class CameraModel:
     """Position and geometry of the camera. Position, geometry and two potentiometer readings together determine the
     view of the camera.
 
-    The parameters (mount, two zero errors, roll, focal scale and offset of each lens) are the parameters that the
-    researchers at Stanford used for their cell. Unlike a 3x4 collineation matrix, these parameters stay valid for
+    The model has the parameters that the researchers at Stanford used for their cell: mount, two zero errors, roll,
+    and the focal scale and offset of each lens. Unlike a 3x4 collineation matrix, these parameters stay valid for
     other aims and lenses.
     """
 
@@ -77,7 +77,9 @@ class CameraModel:
         raise BadArgument(f"the turret has no {focal_length * 1000:.0f} mm lens; it has {known}")
 
     def view(self, focal_length: float, pan: float, tilt: float) -> "View":
-        """Return the view through the lens with this focal length (m) at these potentiometer readings (rad)."""
+        """Return the view through the lens with the focal length `focal_length` (m). The potentiometers of the mount
+        read `pan` and `tilt` (rad).
+        """
         return View(model=self, lens=self.lens(focal_length), pan=pan, tilt=tilt)
 
     def aim(self, point_W: Array | tuple[float, float, float], focal_length: float) -> tuple[float, float]:
@@ -149,8 +151,8 @@ class View:
         return np.asarray(in_camera @ self.X_WC[:3, :3].T)
 
     def resolution(self, point_W: Array) -> tuple[float, float]:
-        """Return the number of picture points per metre of a horizontal plane through `point_W`: along the picture
-        lines, and across them.
+        """Return two resolutions of a horizontal plane through `point_W`, in picture points per metre. The first is
+        along the picture lines, and the second across them.
         """
         uv = self.project(point_W) + np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
         around = self.back_project(uv, float(np.ravel(point_W)[2]))

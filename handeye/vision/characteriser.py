@@ -53,8 +53,9 @@ def walk(
 
 
 def _first(line: list[float], polarity: Polarity, step: float, beyond: float) -> tuple[int, int | None]:
-    """Find the first rise of a line by at least `step`, to at least the intensity `beyond`. Returns two indices: that
-    of this rise, and that of the steepest rise near it. Returns (end, None) if the line never rises that far.
+    """Find the first rise on a line. A rise must be at least `step`, and must end at an intensity of at least
+    `beyond`. Returns the index of this rise, and the index of the steepest rise near it. Returns (end, None) if the
+    line never rises that far.
     """
     rise, places = _rise(line, 0), len(line) - 2 * SPAN + 1
     entering = [*line[2 * SPAN :], 0.0]  # no point enters after the last place

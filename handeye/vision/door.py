@@ -112,10 +112,10 @@ def characterise(
     wide: bool = False,
     beyond: float = 0.0,
 ) -> Blob | None:
-    """Find the centre, width and height of a convex blob. From a seed point inside the blob, scan lines (beams) run
-    left and right, and then up and down, to the edges. The middle between two opposite edges is a better estimate of
-    the centre, and the next beams start there. The search ends when the estimate no longer changes. Returns None if a
-    beam finds no edge.
+    """Find the centre, width and height of a convex blob. Beams run from a seed point inside the blob to the edges of
+    the blob: first to the left and right, then up and down. The middle between two opposite edges is a better estimate
+    of the centre, and the next beams start there. The search ends when the estimate no longer changes. Returns None if
+    a beam finds no edge.
 
     The method is for plain faces, because a beam ends at the first edge. The relief of a coin, or a highlight on a
     sweet, ends a beam too early, so that the blob found is too small. `beyond` and `wide` help against this error. To

@@ -2,9 +2,9 @@
 
 In the difference of the pictures the gasket is a bright blob with two dark holes. There is little difference wherever
 the base or the gasket has a hole. If the gasket is displaced, each dark hole in the difference is therefore the
-*union* of a hole of the gasket and the hole of the base below it. The centre of the union moves by only half the
-displacement, but its border moves on one side by all of the displacement. Therefore both the centre and the border are
-tested. If the gasket is in its place, `gasket_sheet` checks that the gasket is whole.
+*union* of two holes: a hole of the gasket, and the hole of the base below it. The centre of the union moves by only
+half the displacement. On one side, the border of the union moves by the whole displacement. Therefore both the centre
+and the border are tested. If the gasket is in its place, `gasket_sheet` checks that the gasket is whole.
 """
 
 import math
@@ -39,8 +39,8 @@ ABSENT: Final = 2.2  # mean difference, levels, below which there is no gasket
 STEP: Final = (1.8, 0.3)  # least step across a border of the gasket: levels, and fraction of its difference
 CENTRE_SHIFT: Final = 0.09 * INCH
 RIM_SHIFT: Final = 0.10 * INCH
-"""Greatest permitted error (m) of the rim. CENTRE_SHIFT is the greatest permitted error of the centre. RIM_SHIFT and
-the three values below are from the vision study, section 4.
+"""Greatest permitted displacements (m) of a hole of the gasket: CENTRE_SHIFT for the centre of the hole, and RIM_SHIFT
+for its rim. RIM_SHIFT and the three values below are from the vision study, section 4.
 """
 BESIDE: Final = 0.3 * INCH  # distance (m) from a hole's border to where the difference is measured
 BEFORE_STEP: Final = 0.38
@@ -92,9 +92,9 @@ def inspect(
 ) -> GasketInspection:
     """Compare pictures of a part at `pose` (x, y in m, yaw in rad), taken before and after a gasket was laid on it.
 
-    Both pictures must be taken with the same aim and target voltage, and with the arm at the same position, because
-    the shadow of the arm is the greatest disturbance. The second picture is aligned with the first by the areas that
-    are the same in both pictures. The part must have two holes.
+    Both pictures must be taken with the same aim and target voltage. The arm must also be at the same position,
+    because its shadow is the greatest disturbance. The second picture is aligned with the first by the areas that are
+    the same in both pictures. The part must have two holes.
     """
     if len(part.holes) < 2:
         raise BadArgument("two holes are needed to inspect a gasket, but the program gives fewer")
@@ -142,10 +142,10 @@ _NAMES: Final[tuple[LargeHole, LargeHole]] = ("largest", "second")
 
 def _as_seen(old: Scan, view: View, part: Part, places: Array) -> Array:
     """Return the corrected positions of the base's holes (in metres, shape (2, 3)). The largest hole is located in the
-    picture without the gasket. Its position error corrects the positions of both holes.
+    picture without the gasket. The difference from its expected position is then used to correct both positions.
 
     The aim of the mount may differ from the readings of its potentiometers by more than the width of a hole's border.
-    But the arm knows the position of the base to within less than this width. If the hole is not found, the positions
+    But the arm knows the position of the base with a smaller error. If the hole is not found, the positions
     are not corrected.
     """
     for _ in range(ROUNDS):
@@ -234,9 +234,9 @@ def _centre(
 ) -> tuple[float, float] | None:
     """Find the centre (x and y, in metres) of the hole that is expected at `place` (in metres, shape (3,)).
 
-    As in the location of the base, the characteriser finds the hole. Then a circle is fitted to the border that is
-    seen around the hole's centre. If an aligning pin blocks one of the characteriser's four beams, the expected place
-    replaces this centre.
+    As in the location of the base, the characteriser finds the hole. Then a circle is fitted to the border of the
+    hole. Rays from the hole's centre find this border. If an aligning pin blocks one of the characteriser's four
+    beams, the rays start from the expected place instead.
     """
     seed, reach = _seen(view, place, hole)
     blob = characterise(scan, seed, step, reach, wide=True, beyond=beyond)
@@ -254,13 +254,14 @@ def _seen(view: View, place: Array, hole: Hole) -> tuple[tuple[float, float], fl
 
 
 def _bulge(new: Scan, old: Scan, view: View, centre: Array, hole: Hole, steps: _Steps) -> float | None:
-    """Measure the bulge (m) of a hole's border around the base's hole at `centre` (in metres, shape (3,)). The picture
-    without the gasket (`old`) shows which part of the border is undisturbed.
+    """Measure how far (m) the border of a hole bulges outwards in the difference of the pictures. The centre of the
+    base's hole is `centre` (in metres, shape (3,)). The picture without the gasket (`old`) shows which part of the
+    border is undisturbed.
 
     The gasket's hole and the base's hole overlap, and the border is the outline of these two discs together. Half of
     this border is nearly undisturbed, so the bulge is measured from the median radius. An aligning pin may hide the
-    border of the base's hole. A ray therefore counts only if, in the picture without the gasket, the border is visible
-    where the ray crosses it.
+    border of the base's hole. Therefore a ray counts only if it crosses a visible border in the picture without the
+    gasket.
     """
     radii, (middle, reach) = [], _seen(view, centre, hole)
     for scan, step, beyond in ((old, steps.before, steps.face), (new, steps.after, 0.0)):

@@ -74,8 +74,8 @@ def placed(centres: Array, part: Part) -> tuple[float, float, float]:
 
 
 def hole_places(part: Part, pose: tuple[float, float, float], *, screws: bool = False) -> Array:
-    """Return the centres, in W (in metres, shape (n, 3)), of the large holes of a part at a pose, or of its screw
-    holes if `screws` is True.
+    """Return the centres of a part's large holes, in W (in metres, shape (n, 3)), when the part is at a pose. If
+    `screws` is True, return the centres of its screw holes instead.
     """
     x, y, yaw = pose
     c, s = math.cos(yaw), math.sin(yaw)
@@ -167,8 +167,8 @@ class Levels(NamedTuple):
         return cls(face=face, dark=dark)
 
     def step(self, search: HoleSearch) -> float:
-        """Return the least step of intensity at an edge. This is the fraction `contrast` of the difference between the
-        face and a hole, but at least two levels, a few times the noise.
+        """Return the least step of intensity at an edge. The step is the fraction `contrast` of the difference between
+        the face and a hole. The least possible step is two levels, which is a few times the noise.
         """
         return max(2.0, search.contrast * (self.face - self.dark))
 
@@ -194,8 +194,8 @@ class HoleFinder:
         self._step, self._bright = levels.step(search), search.face * levels.face
 
     def expected(self, place: tuple[float, float], *, shaded: bool = False) -> list[Candidate]:
-        """Find candidates near the places that are expected if the part's reference point is at `place` (x and y,
-        in metres): first the largest hole, then holes around it.
+        """Find candidates near their expected places, if the part's reference point is at `place` (x and y, in
+        metres). The largest hole is found first, and then holes around it.
 
         The second hole is found by beams from the first, at all angles by which the part may be turned. If `shaded`
         is True, a circle of the size of the first hole is fitted, because a shadow blocks one of the four beams of
@@ -213,8 +213,8 @@ class HoleFinder:
         return found
 
     def _circle(self, middle: Array) -> Candidate | None:
-        """Find the largest hole by fitting a circle to the border around a point (u, v), and then a second circle to
-        the border around the fitted centre.
+        """Find the largest hole by fitting two circles. The first is fitted to the border around a point (u, v), and
+        the second to the border around the centre of the first circle.
         """
         diameter = self._part.holes[0].diameter
         width, height = diameter * self._across, diameter * self._down

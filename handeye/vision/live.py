@@ -10,9 +10,9 @@ import numpy as np
 from handeye.ports.camera import Picture
 
 MAX_NOISE: Final = 1.6
-"""Greatest plausible noise, as a standard deviation in intensity levels; the simulated vidicon has a noise of 1. Our
-choice: fault-free pictures of two worlds have at most 1.06, and pictures with hum and snow of 2 levels have 2.07 or
-more.
+"""Greatest plausible noise, as a standard deviation in intensity levels; the simulated vidicon has a noise of 1. We
+chose a limit between two measured values: fault-free pictures of two worlds have at most 1.06, and pictures with hum
+and snow of 2 levels have 2.07 or more.
 """
 _WHITE: Final = 15  # the highest level
 _MEDIAN: Final = 0.6745 * math.sqrt(6)  # median of second differences of noise of 1 level
@@ -33,8 +33,8 @@ def noise(picture: Picture) -> float:
     """Estimate the noise of a picture, as a standard deviation in intensity levels. The estimate is computed from the
     deviation of each point from the mean of its neighbours on the same picture line.
 
-    The estimate uses the median of these deviations, on which the few edges in a picture have little effect. Points
-    that are completely black or completely white show no noise and do not count.
+    The estimate uses the median of these deviations, because the few edges in a picture hardly change the median.
+    Points that are completely black or completely white show no noise and do not count.
     """
     levels = picture.astype(np.int16)
     counts = (levels > 0) & (levels < _WHITE)

@@ -22,8 +22,8 @@ GraspLine = tuple[tuple[float, float], tuple[float, float]]  # two ends (u, v)
 
 
 def grasp_line(view: View, X_WT: Pose, gap: float, z: float) -> GraspLine | None:
-    """Return the line between two fingers `gap` (m) apart, projected down from the hand to the height `z` (m in
-    W). Returns None unless this line lies within the picture.
+    """Return the line between the two fingers, which are `gap` (m) apart. The line is projected from the hand down to
+    the height `z` (m in W). Returns None unless this line lies within the picture.
     """
     ends = X_WT[:3, 3] + np.array([[-0.5], [0.5]]) * gap * X_WT[:3, 1]
     ends[:, 2] = z

@@ -40,8 +40,8 @@ is missing gives 3.7 to 5.6. A screw that stands 2.5 mm high gives .8 to 2.0, so
 behind the crank is not visible at all.
 """
 FAINT: Final = 3.4
-"""Least contrast (levels) of the earlier picture on the part: the difference between the 2nd and the 98th percentile
-of the picture's levels.
+"""Least contrast (levels) that the part must have in the earlier picture: the difference between the 2nd and the 98th
+percentile of the picture's levels.
 
 Limits in levels mean something only in pictures of about the usual contrast. On a finished pump that the lamp lights,
 the contrast is 5.8 to 10.2 levels, which is 1.4 to 1.84 times the mean difference that a missing head gives (13

@@ -1,7 +1,7 @@
 """The vision functions that a calling program can replace, and wrappers for the program's own functions.
 
-A wrapper checks the result of the caller's function. The wrapper also computes where the part would appear in the
-picture if it were at the place that the function returned. Reports mark this place.
+A wrapper checks the result of the caller's function. If the result is the place of a part, the wrapper also computes
+the outline that a part at this place has in the picture. Reports mark this outline.
 """
 
 from collections.abc import Callable, Mapping
@@ -48,15 +48,15 @@ BUILT_IN: Final = VisionFunctions()
 
 
 def with_functions(functions: Mapping[str, Callable[..., Any]]) -> VisionFunctions:
-    """Return the vision functions. For each instruction that is a key of `functions`, the given function replaces
-    handeye's own function.
+    """Return the vision functions. If an instruction is a key of `functions`, the given function replaces handeye's
+    own function for this instruction.
     """
     return VisionFunctions(**{word.lower(): function for word, function in functions.items()})
 
 
 def general_by(name: str, function: Callable[..., Any]) -> General:
-    """Wrap a function that takes a picture, its view and the part, and returns the place x, y (m) of the part's
-    reference point in W, or None if it does not find the part.
+    """Wrap a function that locates a part. The function takes a picture, its view and the part. It returns the place
+    x, y (m) of the part's reference point in W, or None if it does not find the part.
     """
 
     def locate(picture: Picture, view: View, part: Part) -> GeneralLocation | Failure:
@@ -75,8 +75,9 @@ def general_by(name: str, function: Callable[..., Any]) -> General:
 
 
 def specific_by(name: str, function: Callable[..., Any]) -> Specific:
-    """Wrap a function that takes a close-up picture, its view, the part, and the rough place x, y (m), and returns
-    the pose x, y (m), yaw (rad) of the part in W, or None if it does not find the part.
+    """Wrap a function that finds the pose of a part. The function takes a close-up picture, its view, the part, and
+    the rough place x, y (m). It returns the pose x, y (m), yaw (rad) of the part in W, or None if it does not find the
+    part.
     """
 
     def locate(

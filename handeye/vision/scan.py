@@ -103,9 +103,7 @@ class Scan:
         return int(np.count_nonzero(self.read))
 
     def open(self) -> None:
-        """Remove the window. After this call, beams may go everywhere in the picture except on its margin, the
-        outermost points.
-        """
+        """Remove the window. After this call, beams may go everywhere in the picture except on its outermost points."""
         low, high = MARGIN - 0.5, MARGIN + 0.5
         self._look_within(
             np.array(
@@ -118,7 +116,7 @@ class Scan:
         """Set the window, a convex quadrilateral that limits all beams. The new window replaces the previous window.
         Raises BadArgument if `corners` form no such quadrilateral.
 
-        `corners` are (u, v), points, in order around the window, shape (4, 2).
+        `corners` are the positions (u, v) of the corners, in picture points, in order around the window, shape (4, 2).
         """
         found = quadrilateral(corners)
         along = np.roll(found, -1, axis=0) - found
@@ -158,8 +156,8 @@ class Scan:
         return np.asarray((nearest > 0) & (nearest < width))
 
     def runs(self, starts: Array, directions: Array) -> tuple[Array, Array]:
-        """Return two arrays of shape (n,): how far each ray runs within the window backwards from its start, and how
-        far it runs forwards, in picture points.
+        """Return how far each ray can go within the window, in picture points. The first array, shape (n,), has the
+        distances backwards from the starts, and the second array the distances forwards.
         """
         heights, slopes = self._heights(starts), directions @ self.sides[:, :2].T
         back, ahead = np.full((2, *heights.shape), np.inf)
@@ -207,7 +205,7 @@ class Scan:
         return lines[0] if len(lines) == 1 else [sum(across) for across in zip(*lines, strict=True)]
 
     def account_lines(self, starts: Sequence[int], length: int, stride: int) -> None:
-        """Record that the points of these lines have been read."""
+        """Record that the points of the given lines have been read. The arguments are the same as for `summed`."""
         for start in starts:
             self._read[start : start + length * stride : stride] = True
 

@@ -55,8 +55,8 @@ def locate_shaded(scan: Scan, view: View, part: Part) -> tuple[float, float, flo
 
 
 def _contrast(scan: Scan, view: View, part: Part, centres: Array, diameter: float) -> Array:
-    """Return by how many levels the face around a hole is brighter than the hole, shape (n,). The n values are for n
-    assumed places of the hole's centre, `centres` (m in W, shape (n, 2)).
+    """Return the contrast (levels) between the face around a hole and the darker hole, shape (n,). The n values are
+    for n assumed places of the hole's centre, `centres` (m in W, shape (n, 2)).
     """
     wall = _levels(scan, view, part, centres, diameter / 2 + WALL)
     inside = _levels(scan, view, part, centres, diameter / 4)

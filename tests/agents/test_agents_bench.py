@@ -329,7 +329,7 @@ def test_a_commitment_depends_on_salt_task_and_order() -> None:
         (("pin", "--check", "--try", "."), "give one of --command, --solutions, --try, --brief and --check"),
         (("--try", "."), "--try needs the name of one task"),
         (("pin", "--try", "nowhere"), "nowhere: there is no such folder"),
-        (("pin", "--command", "no-such-program"), "--command cannot be started: No such file or directory"),
+        (("pin", "--command", "no-such-program"), "the command cannot be started: No such file or directory"),
         (("pin", "--command", ""), "--command is empty"),
         (("pin", "--solutions", "nowhere"), "nowhere: there is no such folder"),
         (("pin", "--command", "'"), "--command cannot be used: No closing quotation"),

@@ -144,10 +144,10 @@ def test_a_deadlock_names_who_waits_for_what() -> None:
         (-1.0, "^A cannot wait for a negative time$"),
         (float("nan"), "^a task cannot wait for nan s$"),
         (float("inf"), "^a task cannot wait for inf s$"),
-        (0.0, "^no task can continue: A waits for no time, 100 times in succession$"),
+        (0.0, "^no task can continue: A waits for 0 s, 100 times in succession$"),
         (
             Until(met=lambda: True, name="it"),
-            "^no task can continue: A waits for no time, 100 times in succession$",
+            "^no task can continue: A waits for 0 s, 100 times in succession$",
         ),
     ],
 )

@@ -186,7 +186,7 @@ def test_a_run_taken_up_from_a_checkpoint_says_what_it_has_not_seen(tmp_path: Pa
     told = [bar.attributes["aria-label"] or "" for bar in page.one("stages").all("a")]
     assert [bar.endswith("not recorded") for bar in told] == [True, True, False]
     assert "1 picture was taken before this trace begins" in page.one("seen").text
-    assert "6 guards tripped before the beginning of this trace" in page.one("felt").text
+    assert "6 guards tripped before this trace begins" in page.one("felt").text
     assert len(page.one("felt").all("figure")) == 3
 
 

@@ -122,4 +122,4 @@ def test_a_row_of_another_world_is_refused(command: Command, runs: list[str]) ->
     )
     code, _, err = command("trials", "rare", *WORDS, "--levels", "2", "--out", "rare")
     assert code == 2
-    assert "is in a different world from the one that this command would try" in err
+    assert "was tried in one world, and this command would try it in another" in err

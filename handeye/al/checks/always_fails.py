@@ -53,7 +53,7 @@ def _stops(graph: Graph) -> Iterator[AlwaysFails]:
 
 
 def _grasps(graph: Graph) -> Iterator[AlwaysFails]:
-    """Yield the grasps that expect a wider object than the hand was opened for."""
+    """Yield the grasps of objects that are expected to be wider than the gap between the open fingers."""
     least = min(_gaps(graph, graph.which(Open)), default=math.inf)  # no OPEN is narrower
     grasps: Iterator[tuple[int, Close | Center]] = chain(graph.each(Close), graph.each(Center))
     for number, grasp in grasps:
@@ -120,14 +120,14 @@ def _touches(graph: Graph) -> Iterator[AlwaysFails]:
 
 
 def _guarded(graph: Graph, kind: GuardKind) -> Iterator[int]:
-    """Yield the motions that have a guard of this kind."""
+    """Yield the motions that have a guard of the kind `kind`."""
     for number in graph.which(*(one for one in graph.kinds if one.family == "motion")):
         if any(guard.kind is kind for guard in graph.steps[number].operation.guards):
             yield number
 
 
 def _pauses(graph: Graph) -> Iterator[AlwaysFails]:
-    """Yield the WAITs that seem to be intended as a delay."""
+    """Yield each WAIT that seems to be intended as a delay."""
     for number, wait in graph.each(Wait):
         if _TIME.fullmatch(wait.message):
             message = "`WAIT` stops the run and calls the operator; it is not a delay"

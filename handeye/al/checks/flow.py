@@ -125,8 +125,9 @@ class _Flow:
         self.trapped = graph.trapped(graph.which(Wait, Advance))
 
     def everywhere(self, check: Callable[[], Iterator[Finding]]) -> Iterator[Diagnostic]:
-        """Yield the diagnostics of a check. A statement can have several steps, for example in each call of a macro.
-        Its diagnostics count only if the check finds a fault in all of its reachable steps.
+        """Yield the diagnostics of a check. A statement can have several steps; a statement of a macro, for example,
+        has one step for each call of the macro. The diagnostics of a statement count only if the check finds a fault
+        in all reachable steps of the statement.
         """
         found = {number: diagnostic for number, diagnostic in check() if number in self.reached}
         if not found:
@@ -260,8 +261,8 @@ class _Flow:
         return self.problem("test-without-action", number, message, *cause, help=help)
 
     def skips_test(self, first: Test, number: int, raised: Mapping[int, set[int]]) -> bool:
-        """Return True if all of this holds: the test `first` skips exactly one statement, which is a test too; the
-        error of this second test can be pending there; and both tests lead to the same step.
+        """Return True if the test `first` skips exactly one statement, and this statement is a second test whose error
+        can be pending. Both tests must lead to the same step.
         """
         steps, behind = self.graph.steps, self.graph.steps[number].next
         second = self.graph.at(behind, Test)

@@ -75,7 +75,9 @@ def _modifies(statement: Statement) -> bool:
 
 
 def _torn(macro: Macro, behind: Statement, source: Source) -> Iterator[Diagnostic]:
-    """Report a macro that ends in a modifier, if blank lines separate the modifier from its motion."""
+    """Report a macro that ends in a modifier, if only blank lines separate the modifier from a motion that follows the
+    macro.
+    """
     modifier, motion = macro.body[-1].word, behind.word
     assert modifier is not None
     fits = {*INSTRUCTIONS[modifier.text].fits} - {*_OPENING_MOTIONS}

@@ -79,8 +79,8 @@ _POSITION_KINDS: Final = (Refers.POSITION, Refers.TARGET)
 
 
 def check_here(placed: Sequence[ExpandedStatement], known: Container[str]) -> Iterator[Diagnostic]:
-    """Report each use of a position that comes, in the order of the text, before the `HERE` that defines the
-    position. `known` are the taught positions and the positions written in the script.
+    """Report each position that is used further up in the text than the `HERE` that defines the position. `known` are
+    the taught positions and the positions written in the script.
     """
     defined: dict[str, int] = {}
     for number, item in enumerate(placed):
@@ -241,7 +241,7 @@ def _not_comparable(words: ByWord) -> Iterator[Diagnostic]:
 
 
 def check_parameters(script: Script) -> Iterator[Diagnostic]:
-    """Report each word in braces in the texts of a macro if the macro has no parameter of this name."""
+    """Check the words in braces in the texts of macros. Each must be the name of a parameter of its macro."""
     for macro in script.macros.values():
         known = {parameter.text for parameter in macro.parameters}
         for name, span in (found for s in macro.body if known for found in braced_in(s)):

@@ -1,8 +1,8 @@
 """Finds each RESTORE whose difference has not been saved on any path to that RESTORE.
 
-There is one exception. Some programs save a difference relative to a goal that a RESTORE of the same difference has
-shifted. Each SAVE then changes the goal to which the next SAVE refers. Before its first SAVE, such a difference has
-the value zero, and a RESTORE of it is no mistake.
+There is one exception. In some programs, a RESTORE shifts the goal of a MOVE by a difference, and a SAVE after this
+MOVE saves the same difference again, relative to the shifted goal. Before the first SAVE, the difference is zero, and
+a RESTORE is no mistake.
 """
 
 from collections.abc import Iterator
@@ -52,8 +52,8 @@ def check_restores(lowered: Lowered, graph: Graph) -> Iterator[Diagnostic]:
 
 
 def _follows(graph: Graph, move: int, name: str) -> bool:
-    """Return True if the difference `name` is saved after this MOVE and before the next MOVE. The difference is then
-    relative to the goal of this MOVE.
+    """Return True if the difference `name` is saved after the step `move` and before the next MOVE. The difference is
+    then relative to the goal of the step `move`.
     """
     seen: set[int] = set()
     waiting = list(graph.onward[move])

@@ -45,8 +45,8 @@ def solve(arm: ArmModel, X_WT: Pose, near: Array) -> IKResult:
     one nearest to `near`.
 
     The distance between configurations is the sum of the travel times of the joints. Joints that do not affect the
-    pose stay as in `near`, and held joints stay at their fixed positions. If a pose is out of reach only because
-    its numbers are rounded, the solution is the nearest one within the limits.
+    pose stay as in `near`, and held joints stay at their fixed positions. If the pose is out of reach only because its
+    numbers are rounded, the result is the configuration within the limits whose pose is nearest to `X_WT`.
     """
     found = _SOLVERS[arm.structure].solve(arm, X_WT, near)
     if found.q is not None:
@@ -70,7 +70,7 @@ def branches(arm: ArmModel, X_WT: Pose, start: Array | None = None) -> tuple[Arr
 
 def singular(arm: ArmModel, q_start: Array, q: Array, V: Array) -> tuple[int, InLine] | None:
     """Among N configurations on a branch, find the first that is singular for the wanted twist of the hand. Returns
-    its index and the reason, or None if no configuration is singular.
+    the index of this configuration and the reason, or None if no configuration is singular.
 
     `V` are the twists at T in world axes, shape (N, 6), of a motion that begins at `q_start`.
     """

@@ -18,7 +18,7 @@ from handeye.program.diagnosis.reach import FixedDirection, FixedOrientation, In
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class _Build:
-    """Constants of an arm that the solver needs."""
+    """The constants of an arm, as the solver needs them."""
 
     slides: list[int]
     held: list[int]

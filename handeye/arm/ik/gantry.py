@@ -1,9 +1,9 @@
 """Inverse kinematics of a gantry: three sliding axes carry a wrist with three revolute joints, each perpendicular
 to the next.
 
-The slides do not turn the hand. The orientation of the hand alone therefore determines the wrist joints. The remaining
-position determines the slides. The wrist axes need not meet in a point. If a gantry has more than three slides, the
-others are rails, which are held at a fixed position.
+The slides do not turn the hand. The orientation of the hand alone therefore determines the wrist joints. Once the
+wrist joints are known, the position of the hand determines the slides. The wrist axes need not meet in a point. If a
+gantry has more than three slides, the others are rails, which are held at a fixed position.
 
 There are two branches: with and without a flipped wrist. Where the first and last wrist axes are in line, only the sum
 of the two joint angles matters. The first wrist joint then keeps its angle if the last wrist joint can reach the angle
@@ -31,7 +31,7 @@ _EXACT: Final = 1e-6  # round-off of a twist, in m/s or rad/s
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class _Build:
-    """Constants of an arm that the solver needs."""
+    """The constants of an arm, as the solver needs them."""
 
     slides: list[int]
     held: list[int]
@@ -90,8 +90,8 @@ def _wrist(arm: ArmModel, b: _Build, M: Array, flip: float, left: float) -> Arra
 
 
 def solve(arm: ArmModel, X_WT: Pose, near: Array) -> IKResult:
-    """Find the best branch within the joint limits. If no branch is within the limits, return the failure of the joint
-    that is farthest beyond its limits.
+    """Find the best branch within the joint limits. If no branch is within the limits, the result names the joint that
+    is farthest beyond its limits.
     """
     b, start = _build(arm), near.copy()
     start[b.held] = b.held_at
@@ -105,8 +105,8 @@ def solve(arm: ArmModel, X_WT: Pose, near: Array) -> IKResult:
 
 
 def _ways(arm: ArmModel, q: list[float]) -> list[list[float]]:
-    """Return the given configuration. If the first and last wrist axes are in line, return all configurations that
-    divide the turn between these two joints in different ways and are within the limits.
+    """Return the given configuration. But if the first and last wrist axes are in line, these two joints can share the
+    turn in several ways: return all of these configurations that are within the limits.
     """
     if abs(math.sin(q[-2])) >= _COLLINEAR:
         return [q]
@@ -118,7 +118,7 @@ def _ways(arm: ArmModel, q: list[float]) -> list[list[float]]:
 
 def singular(arm: ArmModel, q_start: Array, q: Array, V: Array) -> tuple[int, InLine] | None:
     """Find the first configuration where the wrist would have to swing round, or cannot turn the hand as wanted.
-    Returns its index and the reason, or None if there is no such configuration.
+    Returns the index of this configuration and the reason, or None if the wrist can follow the whole motion.
     """
     i = _build(arm).wrist
     J = jacobian(arm, q)

@@ -24,8 +24,8 @@ _LEAST: Final = 1e-6  # of a step's singular values: smaller ones belong to join
 
 
 def nearest_within(arm: ArmModel, X_WT: Pose, starts: Iterable[Array]) -> Array | None:
-    """Find joint positions within the limits that bring the hand to within `WRITTEN` of a pose. Returns None if there
-    are no such positions.
+    """Find joint positions within the limits that bring the hand to within `WRITTEN` of a pose. Returns None if the
+    search finds no positions.
 
     The first search begins at the solutions in `starts`. A second search begins at configurations that differ slightly
     from these solutions. The second search is needed for a solution in which joint axes are in line: from there, no

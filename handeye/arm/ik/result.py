@@ -25,7 +25,7 @@ class IKResult:
     along: float | None = None  # of motions: m along the hand's path
 
     def message(self, arm: ArmModel) -> str:
-        """Write as a sentence why there is no solution. Returns "" if there is a solution."""
+        """Write a sentence that says why there is no solution. Returns "" if there is a solution."""
         return "" if self.reason is None else reach_sentence(arm, self.reason)
 
     def cause(self, arm: ArmModel, goal: str = "") -> BeyondArm:
@@ -47,8 +47,8 @@ moves the wrist by less than the greatest distance.
 
 
 def choose(arm: ArmModel, found: list[list[float]], near: list[float]) -> IKResult:
-    """Of the solutions within the limits, choose the one that the arm reaches soonest from `near`. If no solution is
-    within the limits, return the failure of the solution that is least beyond the limits.
+    """Of the solutions within the limits, choose the one that the arm reaches soonest from `near`. If all solutions
+    are beyond the limits, the result describes the solution that is least far beyond them, and names its worst joint.
     """
     good = [q for q in found if all(map(_inside, arm.joints, q))]
     if good:
@@ -85,9 +85,9 @@ def _inside(joint: Joint, x: float) -> bool:
 
 
 def _fault(arm: ArmModel, q: list[float]) -> tuple[float, IKResult]:
-    """Return the failure of the joint that is farthest beyond its limit, and the time that this joint would take to
-    travel back to its limit. The failure of a prismatic joint takes precedence, because no other branch avoids this
-    failure.
+    """Find the joint that is farthest beyond its limit. Returns the time in which this joint would travel back to its
+    limit, and a result that names the joint. A prismatic joint beyond its limit takes precedence, because this joint
+    is beyond its limit in every branch.
     """
     outside = [(i, j, x) for i, (j, x) in enumerate(zip(arm.joints, q, strict=True)) if not _inside(j, x)]
     excess = [(j.kind == "prismatic", max(x - j.upper, j.lower - x) / j.speed) for _, j, x in outside]
@@ -97,7 +97,7 @@ def _fault(arm: ArmModel, q: list[float]) -> tuple[float, IKResult]:
 
 
 def beyond(joint: Joint, index: int, x: float) -> OutOfReach | JointLimit:
-    """Return the failure of a joint whose position `x` is beyond its limits."""
+    """Return the reason why the position `x` of a joint is impossible: the joint and the limit that it exceeds."""
     limit = joint.upper if x > joint.upper else joint.lower
     return OutOfReach(index, x, limit) if joint.kind == "prismatic" else JointLimit(index, x, limit)
 

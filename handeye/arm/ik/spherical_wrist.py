@@ -64,9 +64,9 @@ def branches(arm: ArmModel, X_WT: Pose, start: Array | None) -> tuple[Array, NDA
 
 
 def solve(arm: ArmModel, X_WT: Pose, near: Array) -> IKResult:
-    """Find the best branch within the joint limits. If there is no such branch, return the failure: the wrist is too
-    near to axis 1, or a joint is beyond its limits. If several joints are beyond their limits, the failure names the
-    joint that is farthest beyond.
+    """Find the best branch within the joint limits. If no branch is within the limits, the result gives the reason:
+    the wrist is too near to axis 1, or a joint is beyond its limits. If several joints are beyond their limits, the
+    reason names the joint that is farthest beyond.
     """
     _check(arm)
     rows = (constants(arm).X_BW @ X_WT)[:3].tolist()
@@ -83,8 +83,8 @@ def solve(arm: ArmModel, X_WT: Pose, near: Array) -> IKResult:
 
 
 def singular(arm: ArmModel, q_start: Array, q: Array, V: Array) -> tuple[int, InLine] | None:
-    """Find the first configuration where the axes of joints 4 and 6 are in line. Returns its index and the reason,
-    or None if there is no such configuration.
+    """Find the first configuration where the axes of joints 4 and 6 are in line. Returns the index of this
+    configuration and the reason, or None if the two axes are never in line.
     """
     in_line = np.abs(np.sin(q[:, 4])) < _SINGULAR
     return (int(np.argmax(in_line)), InLine((3, 5))) if in_line.any() else None

@@ -11,7 +11,7 @@ _ROBOTS: Final = {STANFORD.name: STANFORD}
 
 
 def robot(name: str) -> ArmModel | None:
-    """Return the arm called `name`, or None if there is no such arm."""
+    """Return the arm called `name`, or None if no arm has this name."""
     return _ROBOTS.get(name)
 
 

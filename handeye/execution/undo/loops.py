@@ -1,15 +1,15 @@
 """Finds executed steps that left the cell as it was. One lift of the hand reverses all these steps.
 
-Such steps are of two kinds: rounds of a loop, and touches. When a program has jumped back to an earlier step, the cell
-is assumed to be in the same state as after that step if four conditions hold. First, no stage began and the operator
-was not called since that step. Second, the hand holds the same object as after that step. Third, every object was put
-down at the place where it was taken up, or taken up at the place where it was put down. Fourth, every screw that was
-driven in was backed out. Rounds that carry objects to another place do not meet the conditions and are reversed step
-by step.
+Such steps are of two kinds: rounds of a loop, and touches. When a program jumps back to an earlier step, a round of a
+loop is complete. The round is assumed to have left the cell as it was after that step if four conditions hold. First,
+since that step, no stage began, and the program did not call the operator. Second, the hand holds the same object as
+after that step. Third, every object was put down at the place where it was taken up, or taken up at the place where it
+was put down. Fourth, every screw that was driven in was backed out. Rounds that carry objects to another place do not
+meet the conditions and are reversed step by step.
 
 A touch is a motion of an empty hand that ended on contact, together with the motion that left the object. If a touch
-were reversed step by step, the hand would touch the object a second time. The object may have been pushed after the
-touch. A finger that moved past the side of the object before would then descend on the object's edge.
+were reversed step by step, the hand would touch the object a second time. After the first touch, the object may have
+been pushed. A finger that moved down beside the object at the first touch would then hit the object's edge.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -34,11 +34,12 @@ def loop_entry(
     """Return the index of the step to which the last jump back led, if the state of the cell is now the same as at the
     end of this step. Returns None if the state differs, or if no jump counts.
 
-    A jump counts only if all motions since the step to which it led were in free air. If a MOVE to the next place of a
-    search were reversed, the hand would end in contact with the object that it met at the previous place. `hand` takes
-    the index of a step, and returns the position of the hand after the step (shape (3,), in W), or None if the hand
-    had not moved yet. `grasping` gives the state of the fingers at the end of the last step. It is True if the fingers
-    have closed, and have not opened after that. It is None if the last step did not change this state.
+    A jump counts only if all motions after its target step were in free air. A MOVE to the next place of a search does
+    not count, because reversing it would bring the hand back into contact with the object at the previous place.
+    `hand` takes the index of a step, and returns the position of the hand after the step (shape (3,), in W), or None
+    if the hand had not moved yet. `grasping` gives the state of the fingers at the end of the last step. It is True if
+    the fingers have closed, and have not opened after that. It is None if this state is the same as at the beginning
+    of the last step.
     """
     last = len(done) - 1
     for head in range(last, 0, -1):
@@ -69,8 +70,8 @@ def _keeps_hold(done: Sequence[ExecutedStep], index: int, grasping: bool | None)
 
 
 def touch_entry(done: Sequence[ExecutedStep], *, grasping: bool) -> int | None:
-    """If the last step moved the empty hand away from an object that it had touched, return the index of the step
-    before this touch. Returns -1 if the touch was the first step, and None if the last step did not follow a touch.
+    """Return the index of the step before a touch, if the last step moved the empty hand away from the touched object.
+    Returns -1 if the touch was the first step, and None if the last step did not follow a touch.
 
     `grasping` is True if the fingers have closed, and have not opened after that.
     """
@@ -87,13 +88,15 @@ def touch_entry(done: Sequence[ExecutedStep], *, grasping: bool) -> int | None:
 
 
 def _goes_empty(done: ExecutedStep) -> bool:
-    """Return True if the step moved an empty hand, and did not move its fingers."""
+    """Return True if the step moved the hand while it was empty, without moving the fingers."""
     before, after = done.gap
     return bool(done.way) and not done.grasping and not done.tool and abs(after - before) < SAME_GAP
 
 
 def without_rounds(done: Sequence[ExecutedStep], hand: Callable[[int], Array | None]) -> Iterator[int]:
-    """Yield the indices of the steps to reverse, in the order of reversal. The steps of skipped rounds are left out."""
+    """Yield the indices of the steps to reverse, in the order of reversal. If the rounds of a loop left the cell as it
+    was, their steps are left out.
+    """
     index = len(done) - 1
     while index >= 0:
         yield index
@@ -103,8 +106,8 @@ def without_rounds(done: Sequence[ExecutedStep], hand: Callable[[int], Array | N
 
 
 def _alike(one: ExecutedStep, other: ExecutedStep) -> bool:
-    """Return True if two executed steps are the same step, if load, grasp and gap were the same in both, and if the
-    screwdriver was off.
+    """Return True if two executed steps are the same step of the program, with the same load, grasp and gap, and with
+    the screwdriver off.
     """
     same = (one.step, one.load, one.grasping) == (other.step, other.load, other.grasping)
     gaps = zip(one.gap, other.gap, strict=True)

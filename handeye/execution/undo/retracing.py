@@ -1,10 +1,10 @@
 """The reverse path of a step, from the end of the step to its beginning, and the guards that stop the arm on this
 path.
 
-The arm is stopped by force that has built up in any direction since the reversal began, and by early contact of
-closing fingers. Closing fingers meet in the middle of the hand. If an object is not in the middle, one finger touches
-the object first, while the gap is still too wide. If the fingers closed on such an object, they would push the object
-to the middle, or push the arm, and the final gap would look right.
+The arm stops when the force on the hand has grown too much since the reversal began, in any direction. It also stops
+when a closing finger touches an object too early. Closing fingers meet in the middle of the hand. If an object is not
+in the middle, one finger touches the object first, while the gap is still too wide. If the fingers closed on such an
+object, they would push the object to the middle, or push the arm, and the final gap would look right.
 """
 
 from collections.abc import Callable
@@ -133,17 +133,18 @@ def retracing(
 
 
 FALLEN: Final = 0.31 * INCH
-"""Distance (m) by which a held object may have fallen. The gasket of the pump determines this distance: the fingers
-reach .25 in through the gasket (`[gasket_stand]`), which is .06 in thick. If the gasket had fallen much farther, the
-fingers could not hold it again. In the worlds of seeds 8128 and 8124, the gasket fell by 6.0 and 6.7 mm. In the world
-of seed 8724 the gasket fell 8.05 mm and was still held, but this limit stops the reversal, because the height of the
-arm is not exact.
+"""Greatest distance (m) from the place of the grasp at which resistance to a reversal means that the held object
+stands on its support. The object can have fallen by at most this distance before the fingers held it again. The gasket
+of the pump determines the limit: the fingers reach .25 in through the gasket (`[gasket_stand]`), which is .06 in
+thick. If the gasket had fallen much farther, the fingers could not hold it again. In the worlds of seeds 8128 and
+8124, the gasket fell by 6.0 and 6.7 mm. In the world of seed 8724, the gasket fell by 8.05 mm and the fingers still
+held it, but the limit stops the reversal: it has no margin for the error in the height of the arm.
 """
 
 
 def stands(run: ExecutionContext, way: RecordedPath, grasps: Callable[[ExecutedStep], bool]) -> bool:
-    """Return True if the resistance shows that the held object stands on a surface. This is the case if the path leads
-    to the place where the object was grasped, and the hand is nearly at this place.
+    """After a guard has stopped a reversal, return True if the held object must be standing on a surface. This is the
+    case if the path leads to the place where the object was grasped, and the hand has nearly reached this place.
 
     `grasps` returns True if a step grasps an object, or grips it more firmly.
     """

@@ -1,4 +1,4 @@
-"""Reverses executed steps, the last first. The method depends on the operation of the step."""
+"""Reverses executed steps, beginning with the last one. The operation of a step determines how the step is reversed."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -75,7 +75,7 @@ def order(state: ExecutionState, undoing: ReversalOrder) -> None:
 
 
 def end(state: ExecutionState) -> None:
-    """End a reversal. The magnet is switched on again, because the magnet is always on while a program runs."""
+    """End a reversal. If the reversal switched the magnet off to put a screw down, the magnet is switched on again."""
     state.undoing, state.drive.magnet = None, True
 
 
@@ -198,8 +198,8 @@ def _retrace(run: ExecutionContext, done: ExecutedStep) -> UndoFailure | None:
 
 
 def _let_go(run: ExecutionContext, done: ExecutedStep) -> UndoFailure | None:
-    """Reverse a grasp: open the fingers to the earlier gap. If the fingers held an object before the step, they grip
-    this object again as firmly as before.
+    """Reverse a grasp: open the fingers to the earlier gap. If the step only changed the grip on an object that the
+    fingers already held, they grip it again as firmly as before the step.
 
     Before opening, the fingers must hold the object that they grasped, so the gap must be the same as in that grasp.
     If the reversal has grasped the object again, the gap must be the same as in the later grasp. A carried object may
@@ -327,7 +327,9 @@ def _go(
 
 
 def _lift(run: ExecutionContext, entry: int) -> UndoFailure | None:
-    """Move the hand to its position after a step: up, across and down, as a MOVE does."""
+    """Move the hand up, across and down, as a MOVE does, to the position that it had after the step with index
+    `entry`.
+    """
     q = _joints_behind(run, entry)
     if q is None or np.abs(q - run.drive.state.q).max() < SAME_JOINTS:
         return None

@@ -23,8 +23,8 @@ to its commanded speed. At this higher speed, the motor exerts enough torque to 
 """
 PRESS: Final = 6.0  # N on the screw to keep the bit in its slot, as for driving in
 TURN: Final = 0.00127 * 1.5
-"""A screw may rise by this distance (m) less than it went down: one and a half turns of the thread. This tolerance is
-needed because the start of the thread is not sensed.
+"""Greatest permitted difference (m) between the descent of a screw and its later rise: one and a half turns of the
+thread. This tolerance is needed because the start of the thread is not sensed.
 """
 TIGHTENED: Final = 3 * 0.00127
 """Height (m) of three turns of the thread. A screw that rises by less than this height was only tightened. A screw
@@ -125,9 +125,9 @@ def _course(run: ExecutionContext) -> Course:
 
 
 def taken_by(run: ExecutionContext, backwards: Iterable[int]) -> int | None:
-    """Return the index of the step in which the screwdriver took up the screw that a later step drives in. In this
-    step, the head of the screw exerted a force that ended the motion of the hand. It is the last such step before the
-    hand moved to the hole. Returns None if there is no such step.
+    """Return the index of the step in which the screwdriver took up the screw that a later step drives in. In that
+    step, the force of the screw's head on the screwdriver ended the motion of the hand. If several steps before the
+    move to the hole ended like this, the last of them is returned. Returns None if there is no such step.
 
     `backwards` gives the indices of steps, from the driving step backwards.
     """

@@ -51,8 +51,8 @@ class Track:
         self.force = max(self.force, math.sqrt(force.dot(force)))
 
     def way(self, q: Array, gap: float) -> RecordedPath | None:
-        """Return the recorded path, ending at the given set-points, or None if neither the arm nor the fingers
-        moved.
+        """Return the recorded path, which ends at the given set-points. Returns None if neither the arm nor the
+        fingers moved.
         """
         way = RecordedPath(q=np.array([*self._q, q]), gap=np.array([*self._gap, gap]))
         rows = _rows(way)

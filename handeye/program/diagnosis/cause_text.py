@@ -104,7 +104,7 @@ _SWINGS = "swings about its set-point: its drive or the computer is late, or its
 
 
 def inspection_sentence(cause: c.InspectionCause | None) -> str:
-    """Write the result of an inspection as a sentence. A cause of None means that the gasket passed."""
+    """Write the result of an inspection as a sentence. If `cause` is None, the gasket passed the inspection."""
     match cause:
         case None:
             return "the gasket is in place"
@@ -118,8 +118,8 @@ def inspection_sentence(cause: c.InspectionCause | None) -> str:
 
 
 def match_sentence(off: float, unlike: float) -> str:
-    """Write the result of a match as a sentence, from the displacement (m) and the fraction of the part that looks
-    different.
+    """Write the result of a match as a sentence. `off` is the displacement of the part (m), and `unlike` is the
+    fraction of the part that looks different.
     """
     moved = f"moved by {inches(off)} relative to its surroundings"
     return f"{moved}; {100 * unlike:.1f} % of the part looks different"

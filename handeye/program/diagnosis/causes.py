@@ -44,9 +44,8 @@ class BeyondArm(CauseRecord, frozen=True, kw_only=True):
 
 
 class JointBehind(CauseRecord, frozen=True, kw_only=True):
-    """A joint did not follow its set-point. `swings` is True if, during the motion, the joint was first far off its
-    set-point on one side and then on the other side. If the motion should end at the place of a part, `of` is that
-    part.
+    """A joint did not follow its set-point. `swings` is True if, during the motion, the joint swung far past its
+    set-point to both sides. `of` is the part at whose place the motion should end, if there is one.
     """
 
     joint: str
@@ -58,8 +57,8 @@ class HandAstray(CauseRecord, frozen=True, kw_only=True):
     """The hand is off its set-point by `distance` (m) at the end of a motion.
 
     `joint` is the joint with the largest following error relative to its limit. `swings` is True if, during the
-    motion, this joint was first far off its set-point on one side and then on the other side. If the motion should end
-    at the place of a part, `of` is that part.
+    motion, this joint swung far past its set-point to both sides. `of` is the part at whose place the motion should
+    end, if there is one.
     """
 
     distance: float
@@ -95,7 +94,7 @@ class TravelOutside(CauseRecord, frozen=True, kw_only=True):
 
 
 class HeightOutside(CauseRecord, frozen=True, kw_only=True):
-    """The last motion ended too high or too low. `height` (m) is the height of the hand above its height at the `SAVE`
+    """The last motion ended too high or too low. `height` (m) is how much higher the hand is than it was at the `SAVE`
     of the difference `name`.
     """
 
@@ -147,7 +146,7 @@ class NoPicture(CauseRecord, frozen=True, kw_only=True):
 
 
 class NoGeneral(CauseRecord, frozen=True, kw_only=True):
-    """A part was to be located by its holes, but no `GENERAL` had found its rough place before."""
+    """The program wanted to locate a part by its holes before a `GENERAL` had found its rough place."""
 
 
 class NoOutline(CauseRecord, frozen=True, kw_only=True):
@@ -159,8 +158,8 @@ class OutsidePicture(CauseRecord, frozen=True, kw_only=True):
 
 
 class FaintPicture(CauseRecord, frozen=True, kw_only=True):
-    """The contrast of the earlier picture is too low to show whether the part has changed. Both numbers are in grey
-    levels.
+    """The contrast of the earlier picture is too low to show whether the part has changed. Grey levels are the unit of
+    the contrast and of the least permissible contrast.
     """
 
     contrast: float
@@ -228,8 +227,8 @@ class GasketWrong(CauseRecord, frozen=True, kw_only=True):
 
 
 class PartAstray(CauseRecord, frozen=True, kw_only=True):
-    """A part has moved by `off` (m) relative to its surroundings. The fraction `unlike` of the part's area looks
-    different from before.
+    """A part has moved by `off` (m) relative to its surroundings. `unlike` is the fraction of the part's area that
+    looks different.
     """
 
     off: float
@@ -253,7 +252,7 @@ class PlacesTried(CauseRecord, frozen=True, kw_only=True):
 
 
 class Looping(CauseRecord, frozen=True, kw_only=True):
-    """The program loops while no time passes. `place` is the line, such as `12` or `pins.al:12`."""
+    """The program loops while no time passes. `place` is a line of the loop, such as `12` or `pins.al:12`."""
 
     place: str
 
@@ -269,7 +268,9 @@ class UndoResisted(CauseRecord, frozen=True, kw_only=True):
 
 
 class HoldOff(CauseRecord, frozen=True, kw_only=True):
-    """While a step is reversed, the gap (m) differs from `kept` (m), the gap when the step was executed."""
+    """During the reversal of a step, the gap (m) differs from `kept` (m). This was the gap when the step was
+    executed.
+    """
 
     gap: float
     kept: float

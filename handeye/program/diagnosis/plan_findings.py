@@ -14,7 +14,9 @@ from handeye.program.guards import HandLoad
 
 
 class NoConfiguration(Record, frozen=True, kw_only=True):
-    """There are no joint positions for a goal, or for the point at the distance `along` (m) on the way to the goal."""
+    """There are no joint positions for a goal, or for a point on the way to the goal. `along` (m) is the distance of
+    this point from the start.
+    """
 
     step: int
     position: str | None  # the goal or via point; None: the finding is about the motion
@@ -93,8 +95,8 @@ class TooWeak(Record, frozen=True, kw_only=True):
 
 
 class TooFaint(Record, frozen=True, kw_only=True):
-    """The arm can hardly distinguish the limit of a guard from joint friction: where the motion begins, the arm may
-    sense up to `felt` (N or N m) even in free air.
+    """The limit of a guard is so low that the arm can hardly distinguish it from joint friction. At the start of the
+    motion, friction alone may make the arm sense up to `felt` (N or N m).
     """
 
     step: int

@@ -20,8 +20,8 @@ class ReachFailureRecord(Record, frozen=True, tag_field="reason", tag=True):
 
 
 class BeyondRange(ReachFailureRecord, frozen=True):
-    """Base class of failures in which a joint would be at `amount`, beyond the end `limit` of its range (both in
-    rad or m).
+    """Base class of failures in which a joint would leave its range. `limit` is the end of the range, and `amount` is
+    the position that the joint would have (both in rad or m).
     """
 
     joint: int
@@ -51,8 +51,8 @@ class JointLimit(BeyondRange, frozen=True):
 
 
 class InnerCylinder(ReachFailureRecord, frozen=True):
-    """The distance (m) of the wrist from the axis of the column would be less than the offset of the shoulder
-    allows.
+    """The wrist would be too near to the axis of the column. Because of the shoulder's offset, the distance (m) cannot
+    be less than `least`.
     """
 
     radius: float
@@ -82,7 +82,7 @@ class FixedDirection(ReachFailureRecord, frozen=True):
 
 
 class HeldJoint(ReachFailureRecord, frozen=True):
-    """A joint that is held at `at` (rad or m) would have to move."""
+    """A joint would have to move although it is held at the position `at` (rad or m)."""
 
     joint: int
     at: float
@@ -93,7 +93,9 @@ class HeldJoint(ReachFailureRecord, frozen=True):
 
 
 class InLine(ReachFailureRecord, frozen=True):
-    """Two joint axes would line up on the way. Where the axes line up, the orientation of the hand cannot be kept."""
+    """During the motion, two joint axes would line up. Where the axes line up, the arm cannot keep the orientation of
+    the hand.
+    """
 
     joints: tuple[int, int]
 

@@ -27,8 +27,8 @@ class SwitchesOpen(CauseRecord, frozen=True, kw_only=True):
 
 
 class SwitchesCrossed(CauseRecord, frozen=True, kw_only=True):
-    """The switch of one of the `fingers` stays closed, although the hand has moved so that this finger is now `moved`
-    (m) farther from the part.
+    """The switch of one of the `fingers` stays closed, although the hand has moved this finger away from the part, by
+    `moved` (m).
     """
 
     fingers: tuple[bool, bool]
@@ -43,8 +43,8 @@ class SwitchesHard(CauseRecord, frozen=True, kw_only=True):
 
 
 class GapJumped(CauseRecord, frozen=True, kw_only=True):
-    """The gap (m) has changed faster than the fingers can move. `held` is True if there was an object at the fingers:
-    the fingers touched it, or it kept them apart.
+    """The gap (m) has changed faster than the fingers can move. `held` is True if the fingers touched an object, or if
+    an object kept them apart.
     """
 
     gap: float
@@ -53,7 +53,7 @@ class GapJumped(CauseRecord, frozen=True, kw_only=True):
 
 
 class GapUnlike(CauseRecord, frozen=True, kw_only=True):
-    """The gap (m) does not fit an object of known thickness (m). `held` is the name of the object in the taught
+    """The gap (m) does not fit an object of known thickness (m). `held` is the object's name, as given in the taught
     file.
     """
 
@@ -111,7 +111,8 @@ class RateScatters(CauseRecord, frozen=True, kw_only=True):
 class JointAlone(CauseRecord, frozen=True, kw_only=True):
     """A joint needs a torque (N m, or N if prismatic) that no force on the hand explains. `friction` is the torque
     that was measured before the program began; `friction` is None if the joint does not move at all. `one_way` is True
-    if the joint moved in only one direction. In that case, a weight would have the same effect as friction.
+    if the joint moved in only one direction. In one direction, a weight has the same effect as friction, so the arm
+    may have tilted.
     """
 
     joint: JointName
@@ -121,15 +122,17 @@ class JointAlone(CauseRecord, frozen=True, kw_only=True):
 
 
 class DrivesUnlike(CauseRecord, frozen=True, kw_only=True):
-    """Either the drives of `joints` give the commanded torques times `factors`, or an external force acts."""
+    """Either the drives of `joints` do not give the commanded torques, or an external force acts on the arm. In the
+    first case, each drive multiplies the commanded torque by one of `factors`.
+    """
 
     joints: tuple[JointName, ...]
     factors: tuple[float, ...]
 
 
 class CurrentUnlike(CauseRecord, frozen=True, kw_only=True):
-    """The motor of the screwdriver showed the torque `torque` (N m), but its known torque at that moment is `known`
-    (N m).
+    """The motor of the screwdriver showed the torque `torque` (N m) in a situation in which it should show the torque
+    `known` (N m).
     """
 
     torque: float
@@ -146,14 +149,16 @@ class CurrentShort(CauseRecord, frozen=True, kw_only=True):
 
 
 class MotorSlow(CauseRecord, frozen=True, kw_only=True):
-    """The motor turns too slowly: it reached its final speed in the fraction `share` of the usual time."""
+    """The motor turns too slowly. Its final speed must be too low, because it reached that speed in only a fraction,
+    `share`, of the usual time.
+    """
 
     share: float
 
 
 class MotorFast(CauseRecord, frozen=True, kw_only=True):
-    """The motor turns too fast. Nothing loads the motor, but it needed more than the usual time to reach a steady
-    speed: after the usual time multiplied by `times`, its speed still increased.
+    """The motor turns too fast. Nothing loads the motor, but its speed increased for more than `times` times the usual
+    time.
     """
 
     times: float

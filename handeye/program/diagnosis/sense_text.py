@@ -11,7 +11,7 @@ _FINGERS = ("+y", "-y")  # names by the side of the hand, in the order of the sw
 
 
 def doubt_sentence(cause: s.SenseCause) -> str:
-    """Write the reason why a sensor is not believed, in inches, degrees and ounces."""
+    """Write the reason to doubt a sensor, a motor or a drive, in inches, degrees and ounces."""
     match cause:
         case s.SwitchesClosed():
             return f"{_switches(cause.fingers)} closed although the fingers are open"
@@ -141,8 +141,8 @@ def _numb(fingers: tuple[bool, bool]) -> str:
 
 
 def _untouched(cause: s.SwitchesOpen) -> str:
-    """Write why the switches are open. If only one switch is open, the motor closed the other switch. In this case,
-    the motor is strong enough.
+    """Write why the switches are open. If only one switch is open, the fingers' motor is strong enough, because it
+    closed the other switch. A weak motor is then not among the reasons.
     """
     causes = _numb(cause.fingers) if all(cause.fingers) else _failed(cause.fingers)
     return causes if cause.fits else f"{causes}, or something stands between the fingers beside their tips"

@@ -24,7 +24,7 @@ class MetGuard(NamedTuple):
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class GuardedMotion:
-    """A guarded motion of n servo periods, with the value that its guard watched."""
+    """A guarded motion of n servo periods, with the value that its guard watched in each period."""
 
     stage: str
     step: StepStarted

@@ -97,7 +97,9 @@ def searches(run: RecordedRun) -> tuple[Search, ...]:
 
 
 def _tries(events: tuple[AnyEvent, ...]) -> Iterator[list[tuple[StepStarted, AnyEvent]]]:
-    """Yield, for each search, the steps in which the search advanced, each with the event of the advance."""
+    """For each search, yield the list of steps that advanced the search. Each step comes with the event that reports
+    the advance.
+    """
     step: StepStarted | None = None
     tries: list[tuple[StepStarted, AnyEvent]] = []
     for event in events:
@@ -127,7 +129,7 @@ def _search(run: RecordedRun, tries: list[tuple[StepStarted, AnyEvent]]) -> Sear
 
 
 class Mover(StrEnum):
-    """What shifted a goal: a saved difference, a part that vision located, or a search."""
+    """The kinds of reasons for which a goal is shifted: a saved difference, a part that vision located, or a search."""
 
     SAVE = "saved in"
     LOOK = "seen in"
@@ -136,8 +138,7 @@ class Mover(StrEnum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Cause:
-    """The reason why a goal was shifted: a saved difference, a part that vision located, or a place of a
-    search."""
+    """The reason for which a goal was shifted: a certain saved difference, part or place of a search."""
 
     name: str
     by: Mover
@@ -204,8 +205,8 @@ def _causes(
     known: Mapping[tuple[Mover, str], Cause],
     search: _Search,
 ) -> Iterator[Cause]:
-    """Yield the reasons for the shift of a goal: saved differences and the search. If these do not explain the whole
-    shift, another reason is that vision located the goal's part.
+    """Yield the reasons for which a goal was shifted. First come the saved differences and the search. If they do not
+    explain the whole shift, vision must have located the goal's part, which is another reason.
     """
     restored = [event for event in step.events if isinstance(event, Restored)]
     rest = np.subtract(adjusted.shift, np.sum([[0, 0, 0], *(event.difference for event in restored)], axis=0))

@@ -1,4 +1,6 @@
-"""Collects what the 3D view draws over the cell: the forces at the hand, the places of searches, and held objects."""
+"""Collects the data that the 3D view adds to the picture of the cell: the forces at the hand, the places of searches,
+and held objects.
+"""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -19,8 +21,8 @@ from handeye.trace.forces import Forces
 from handeye.trace.stages import done_steps
 
 FORCE: Final = 0.2
-"""Greatest error (N), in each direction, of the force that the report draws. It is a tenth of the smallest force limit
-that a program gives to a guard.
+"""The report interpolates between some of the recorded forces. This is the greatest error (N) of each component: a
+tenth of the smallest force limit that a program gives to a guard.
 """
 
 
@@ -87,8 +89,8 @@ def _tried(search: Search, ends: Array) -> TriedPlaces:
 
 
 def held_objects(run: RecordedRun) -> tuple[HeldObject, ...]:
-    """Return the objects that the hand held, with their times, the earliest first. Returns no objects if the task of
-    the run is unknown.
+    """Return the objects that the hand held, and when it held them, the earliest first. Returns no objects if the task
+    of the run is unknown.
     """
     return tuple(_held(run))
 

@@ -107,7 +107,7 @@ def packed(name: str, data: bytes) -> Markup:
 
 
 def _digest(content: str) -> str:
-    """Return the expression for the content security policy that permits a style or script with the text `content`."""
+    """Return the expression of a content security policy that permits the style or script `content`."""
     return f"'sha256-{b64encode(sha256(content.encode()).digest()).decode()}'"
 
 

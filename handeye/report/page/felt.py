@@ -42,7 +42,7 @@ def felt_section(motions: Sequence[GuardedMotion], *, how: How, lost: int, faile
 def _content(motions: Sequence[GuardedMotion], *, how: How, lost: int, failed: bool) -> Iterator[Markup]:
     if lost:
         yield note(
-            f"{counted(lost, 'guard')} tripped before the beginning of this trace, when forces were not recorded."
+            f"{counted(lost, 'guard')} tripped before this trace begins. Forces before that time were not recorded."
         )
     if not motions:
         if not lost:
@@ -87,7 +87,7 @@ def _figure(motion: GuardedMotion) -> Markup:
 
 
 def _said(motion: GuardedMotion) -> str:
-    """Say in words whether the guard stopped the motion."""
+    """Return words that say whether the guard stopped the motion."""
     limit = felt(motion.guard, motion.limit)
     if motion.trip is not None:
         return f"{_short(motion.guard, motion.trip.value)}; limit {limit}"

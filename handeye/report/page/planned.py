@@ -169,7 +169,7 @@ def searched(searches: Sequence[Search]) -> Iterator[Markup]:
 
 def _search(search: Search) -> Markup:
     tried = counted(len(search.places), "place")
-    came = "no places were left" if search.exhausted else "the search ended at the last one"
+    came = "no places were left" if search.exhausted else "the search ended at the last of these places"
     told = f"{tried} tried{f' since {exact_clock(search.times[0])}' if search.times else ''}; {came}"
     caption = joined([element("b", search.step.place), element("span", told)], " ")
     if search.times:

@@ -30,8 +30,9 @@ class Scale:
 def drawing(
     *children: Content, wide: float = WIDE, high: float = HIGH, label: str, role: str = "img"
 ) -> Markup:
-    """Make a drawing with a label for screen readers. With the role `group`, screen readers can also reach the
-    elements inside the drawing."""
+    """Make a drawing with a label for screen readers. If `role` is `group`, screen readers can also reach the elements
+    inside the drawing.
+    """
     return element("svg", *children, viewBox=f"0 0 {wide:g} {high:g}", role=role, aria_label=label)
 
 

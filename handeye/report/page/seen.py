@@ -82,8 +82,8 @@ def _told(finding: Finding) -> str:
 
 
 def _mark(mark: Mark) -> Markup:
-    """Return a mark as SVG. The origin of the coordinates is the centre of the first pixel in pictures, and the corner
-    of that pixel in drawings.
+    """Return a mark as SVG. In a picture, the origin of the coordinates is the centre of the first pixel. In SVG, it
+    is the corner of that pixel, so the mark is shifted by half a pixel.
     """
     match mark:
         case Loop():
@@ -125,8 +125,8 @@ def picture_png(picture: Picture) -> bytes:
 
 
 def _lines(picture: Picture) -> bytes:
-    """Return the lines of a picture as PNG stores them: two pixels per byte, and before each line a byte with the
-    number of its filter. The number is 0: no filter.
+    """Return the lines of a picture as PNG stores them, with two pixels per byte. Before each line is a byte with the
+    number of the line's filter, which is 0, for no filter.
     """
     even = np.pad(picture, ((0, 0), (0, picture.shape[1] % 2)))
     packed = (even[:, ::2] << 4 | even[:, 1::2]).astype(np.uint8)

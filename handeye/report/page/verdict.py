@@ -38,7 +38,7 @@ _NEUTRAL: Final = Words(done="The referee found everything right.", product="the
 
 
 def title(run: RecordedRun, outcome: Outcome) -> str:
-    """Say in one sentence how the run ended."""
+    """Return one sentence that says how the run ended."""
     task = known_any(run.trace.head.task)
     words = _NEUTRAL if task is None else task.words
     apart = None if run.result is None else run.result.apart
@@ -156,8 +156,8 @@ def _figures(run: RecordedRun) -> Iterator[tuple[int, str]]:
 
 
 _UNTOLD: Final = (OperatorCalled, PanicStopped, ErrorTested, CameraBusy, CameraStarted, PictureTaken)
-"""Kinds of events that add nothing to the reason for an outcome: events without sensor readings, and events that
-report the reason itself.
+"""Kinds of events that the page does not list among the last sensor readings: events without sensor readings, and
+events that only repeat the reason for the outcome.
 """
 _SAID: Final = 4
 
@@ -178,7 +178,7 @@ def _reasons(outcome: Outcome) -> Iterator[str]:
 
 
 def _called(call: OperatorCalled) -> str:
-    """Say in a sentence why the program called the operator."""
+    """Return a sentence that says why the program called the operator."""
     reason = call_sentence(call.message, call.error, call.cause)
     if call.message or not reason:
         return f"The program called the operator{f': “{reason}”' if reason else ''}."
@@ -222,8 +222,8 @@ def _senses(run: RecordedRun, outcome: Outcome, told: Sequence[CaptionedEvent]) 
 
 
 def _tells(each: CaptionedEvent, run: RecordedRun, outcome: Outcome) -> bool:
-    """Return True if an event may explain the outcome: it happened in the stage in which the run ended, and is not
-    itself the reported reason.
+    """Return True if an event may explain the outcome. The event must have happened in the run's last stage, and must
+    not be the reported reason itself.
     """
     begun = max((stage.begin for stage in run.trace.stages), default=0.0)
     call = outcome.call

@@ -1,4 +1,6 @@
-"""Builds the section with the 3D view of the run: the stages, the controls, and the script beside the view."""
+"""Builds the section with the 3D view of the run. The section also contains the stages, the controls, and the
+script.
+"""
 
 from collections.abc import Iterator, Sequence
 from typing import Final
@@ -105,7 +107,7 @@ def _controls(run: RecordedRun) -> Markup:
     views = element("div", id="views", role="group", aria_label="view", class_="views")
     box = element("input", type="checkbox", id="sensing", checked=True, aria_keyshortcuts="s")
     senses = element(
-        "label", box, " senses", title="show force and path of the hand, searches and pictures (key S)"
+        "label", box, " senses", title="show searches, pictures, and the force and path of the hand (key S)"
     )
     return element(
         "div", play, time, now, speed, views, senses, id="controls", class_="controls", hidden=True

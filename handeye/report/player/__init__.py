@@ -7,7 +7,7 @@ decompresses scene and tracks (`DecompressionStream("gzip")`) and passes them to
 const player = await createPlayer(canvas, scene, tracks, options);
 ```
 
-If the browser has no WebGL 2, the promise is rejected with an `Error`, whose message explains this to the reader.
+If the browser has no WebGL 2, the promise is rejected with an `Error`. The message of the error names what is missing.
 Times are seconds since the run began. There are two options. `still`: the view changes at once instead of gliding; the
 default follows the browser's setting for reduced motion. `exposures`: the number of pictures that are averaged when
 nothing moves.
@@ -58,12 +58,12 @@ SOURCES: Final = Path(__file__).with_name("script")
 
 
 def scene_bytes(trace: Trace) -> bytes:
-    """Return the scene of a run, compressed: surfaces, materials, names and views."""
+    """Return the surfaces, materials, names and views of a run's scene as compressed bytes."""
     return scene.scene_bytes(trace.scene)
 
 
 def tracks_bytes(trace: Trace) -> bytes:
-    """Return two parts of a run as compressed bytes: the tracks of all visible bodies, and the clock."""
+    """Return the tracks of all visible bodies, and the clock of the run, as compressed bytes."""
     begin, end = trace.covers
     return tracks.tracks_bytes(
         shown_poses(trace),
@@ -93,6 +93,8 @@ def script() -> str:
 
 
 def _plain(module: str) -> str:
-    """Return a module without comments and import statements, because all modules share one scope in the page."""
+    """Return a module without comments and import statements. It needs no imports, because all modules share one scope
+    in the page.
+    """
     lines = (line.strip().removeprefix("export ") for line in module.splitlines())
     return "".join(f"{line}\n" for line in lines if line and not line.startswith(("import ", "//")))

@@ -36,9 +36,10 @@ class Meshes:
     """
 
     told: list[dict[str, Any]] = field(default_factory=list)
-    """What the page must know about each mesh. `fine` and `coarse` are the two levels of detail: for each level, the
-    index of the first corner and the number of corners in the list of triangles. `scale` is the scale of the points,
-    and `ball` is the bounding sphere. `parts` gives the name and the range of each piece.
+    """The data of each mesh for the page. `fine` and `coarse` are the two levels of detail. The corners of a level are
+    consecutive in the list of triangles; `fine` or `coarse` gives the index of the first corner, and the number of
+    corners. `scale` is the scale of the points, and `ball` is the bounding sphere. `parts` gives the name and the
+    range of each piece.
     """
     _points: list[NDArray[np.uint16]] = field(default_factory=list)
     _normals: list[NDArray[np.int8]] = field(default_factory=list)
@@ -51,8 +52,8 @@ class Meshes:
         return self._added(pieces, _coarse(pieces))
 
     def number_of_parts(self, pieces: Sequence[Piece]) -> int:
-        """Return the number of a body's mesh, as `number` does. In this mesh, the user can click on the named pieces
-        of the body. Pieces with the same name are stored together.
+        """Return the number of a body's mesh, as `number` does. Unlike the mesh of `number`, this mesh keeps the named
+        pieces of the body apart, so that the user can click on them. Pieces with the same name are stored together.
         """
         number = self._added(pieces, ())
         first, _ = self.told[number]["fine"]
@@ -103,7 +104,7 @@ class Meshes:
 
 
 def _coarse(pieces: Sequence[Piece]) -> Sequence[Piece]:
-    """Return coarser pieces, or none if they would save less than half of the corners."""
+    """Return coarser pieces. Returns no pieces if the coarser ones would save less than half of the corners."""
     cell = float(np.ptp(_points(pieces), axis=0).max()) / CELLS
     if _corners(pieces) < 3 * FINE:
         return ()
@@ -127,8 +128,9 @@ CELLS: Final = 14  # Along the longest side of a body: all points in a cell beco
 
 
 def coarsened(surface: Surface, cell: float) -> Surface:
-    """Merge all points of a surface that lie in the same cell of a grid with cells of `cell` (m). Returns the
-    surface of the remaining triangles."""
+    """Divide the space into cubes with sides of length `cell` (m), and merge all points of a surface that lie in the
+    same cube. Returns the surface of the remaining triangles.
+    """
     places = np.floor((surface.points - surface.points.min(axis=0)) / cell + 0.5)
     _, number = np.unique(places, axis=0, return_inverse=True)
     number = number.reshape(-1)

@@ -1,4 +1,4 @@
-"""Packs arrays for a page into few bytes: a JSON header, followed by the arrays, all compressed.
+"""Packs arrays for a page into few bytes. A JSON header is followed by the arrays, and all of it is compressed.
 
 Arrays are stored by column, as differences of successive values. The differences contain many repeated bytes, which
 compress well.
@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 _ALIGNED: Final = 4
-"""Alignment of arrays (bytes): a script can then read an array in place."""
+"""Alignment of arrays (bytes). A script can read an aligned array in place."""
 
 
 def packed(header: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]]) -> bytes:
@@ -47,7 +47,7 @@ def columns(values: NDArray[Any]) -> NDArray[np.uint16]:
 
 def zigzag(values: NDArray[Any]) -> NDArray[np.uint32]:
     """Return how much each whole number differs from the number before it, shape (n,). Negative differences become odd
-    numbers: 0, -1, 1, -2 become 0, 1, 2, 3.
+    numbers, and positive ones even numbers: the differences 0, -1, 1, -2 become 0, 1, 2, 3.
     """
     steps = np.diff(values.astype(np.int64), prepend=0)
     return np.where(steps < 0, -2 * steps - 1, 2 * steps).astype(np.uint32)

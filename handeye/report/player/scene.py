@@ -202,7 +202,9 @@ def seen(model: Any, body: int) -> list[int]:
 
 
 def lowest(model: Any) -> float:
-    """Return the height (m) of the lowest point of the world. Absent bodies are put below this point."""
+    """Return the height (m) of the lowest point of the world. A simulation puts a body below this point while the body
+    is absent from the cell.
+    """
     found = [surface(model, shape) for shape in seen(model, 0)]
     return min((float(part.points[:, 2].min()) for part in found if part is not None), default=-np.inf)
 
@@ -242,8 +244,8 @@ the scene, and to the left of the viewer.
 
 
 def views(model: Any) -> list[dict[str, Any]]:
-    """Return the views of a scene. Each view has a name and a viewing angle (degrees). `eye` is the position of the
-    viewer (m), who looks at the point `at` (m).
+    """Return the views of a scene. Each view has a name and a viewing angle (degrees). The viewer is at the point
+    `eye` (m), and looks at the point `at` (m).
 
     In a view with a `body`, `eye` and `at` are relative to the body's position, along the axes of the world.
     """
@@ -256,7 +258,7 @@ def views(model: Any) -> list[dict[str, Any]]:
 
 
 def lamp(model: Any) -> dict[str, list[float]]:
-    """Return two positions (m): that of the lamp, and that of the point at which the lamp is aimed."""
+    """Return the position of the lamp, and the point at which the lamp is aimed (m)."""
     middle = np.array(model.stat.center)
     return {"eye": rounded(middle + model.stat.extent * _LAMP), "at": rounded(middle * [1, 1, 0])}
 
@@ -270,8 +272,8 @@ def _camera(model: Any, number: int) -> dict[str, Any]:
 
 
 def _distance(model: Any, eye: Array, forward: Array) -> float:
-    """Return the distance (m) from a camera to the point where its line of sight reaches the height of the scene's
-    centre.
+    """Return the distance (m) of a camera from the point at which it looks. This is the point where its line of sight
+    is as high as the scene's centre.
     """
     drop = eye[2] - model.stat.center[2]
     return float(-drop / forward[2]) if drop > 0 and forward[2] < -0.1 else float(model.stat.extent)

@@ -1,4 +1,4 @@
-"""Makes the surfaces of the shapes in a scene: triangles, with the normal of the surface at each corner."""
+"""Makes the surfaces of the shapes in a scene. A surface consists of triangles, and has a normal at each corner."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -13,8 +13,8 @@ from handeye.core.pose import Array
 
 SIDES: Final = 32  # Sides of the prism that stands for a cylinder
 CREASE: Final = np.cos(np.radians(35.0))
-"""Cosine of the smallest angle between the normals of two adjacent faces at which their common edge is drawn as sharp.
-If the angle is smaller, the faces are drawn as one curved surface.
+"""Cosine of an angle. If the normals of two adjacent faces differ by this angle or more, the edge between the faces is
+drawn as sharp. If they differ by less, the faces are drawn as one curved surface.
 """
 
 
@@ -108,7 +108,9 @@ def _distinct(rows: NDArray[Any]) -> tuple[NDArray[np.int64], NDArray[np.int64]]
 
 
 def _meeting(corner: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """Return all pairs of entries that are the same point, including the pair of each entry with itself."""
+    """Return all pairs of entries of `corner` that stand for the same point. Each entry also forms a pair with
+    itself.
+    """
     order = np.argsort(corner, kind="stable")
     first = np.flatnonzero(np.diff(corner[order], prepend=-1))
     count = np.diff(np.append(first, len(order)))

@@ -22,8 +22,8 @@ class Track:
     """Selected poses of a body. All other poses are interpolated linearly between the selected poses."""
 
     spans: tuple[tuple[int, int, int], ...]
-    """Spans in which the body is present: first servo period, last one (exclusive), and the number of poses in the
-    span.
+    """Spans in which the body is present. Each span contains three numbers: its first servo period, the first period
+    after the span, and the number of poses in the span.
     """
     periods: NDArray[np.int64]  # Servo periods of the poses, shape (n,)
     poses: Array

@@ -1,5 +1,5 @@
-"""MOS and ML (IBM, 1975): a language of numbered statements, whose motions can be stopped by sensors, and an operating
-system that reads all sensors every ten milliseconds.
+"""MOS and ML (IBM, 1975). ML is a language of numbered statements in which sensors can stop motions. MOS is an
+operating system that reads all sensors every ten milliseconds.
 """
 
 from handeye.core.entries import Entry

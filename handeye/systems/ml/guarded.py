@@ -56,8 +56,8 @@ class Delay:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Branch:
-    """`BRANCH`: go to `then` if the flag of any listed sensor is on. A sensor with a negative number in the list
-    counts if its flag is off.
+    """`BRANCH`: go to `then` if the flag of any listed sensor is on. A minus sign reverses the test: -5 in the list
+    means that the flag of sensor 5 is off.
     """
 
     then: int
@@ -82,7 +82,7 @@ class State:
 
     @staticmethod
     def at(positions: Mapping[int, int]) -> "State":
-        """Return the state of an arm that stands still, without guards."""
+        """Return the state of an arm that stands still and has no guards."""
         fine = {motor: FINE * position for motor, position in positions.items()}
         return State(positions=positions, goals=positions, set_points=fine, limits={})
 

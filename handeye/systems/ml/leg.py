@@ -1,10 +1,10 @@
 """Lets ML run legs of a relay: a program in ML moves the tool of the Stanford arm.
 
-The motors have the numbers of the rectilinear arm: 4 is X, 3 is Y, 2 is Z (down), 8 is the roll of a hand that points
-straight down, and 11 is the gap of the fingers. The unit of the slides is .001 inch, and the unit of the roll is .01
-degree. When all slides are at 0, the tool is at x = 24, y = 42 and z = 5 in. When the roll is 0, the finger line is
-along Y. Sensors 2 to 4 read the force on the hand along X, Y and Z (up) in grams, and sensors 9 and 10 read the
-switches of the fingers. A cycle takes a servo period of the arm, 1/60 s, instead of 10 ms.
+The motors have the numbers of the rectilinear arm. Motors 4, 3 and 2 are X, Y and Z (down). Motor 8 is the roll of a
+hand that points straight down, and motor 11 is the gap of the fingers. The unit of the slides is .001 inch, and the
+unit of the roll is .01 degree. When all slides are at 0, the tool is at x = 24, y = 42 and z = 5 in. When the roll is
+0, the finger line is along Y. Sensors 2 to 4 read the force on the hand along X, Y and Z (up) in grams, and sensors 9
+and 10 read the switches of the fingers. A cycle takes a servo period of the arm, 1/60 s, instead of 10 ms.
 
 A remark `* NAME IS &n` reads the height NAME from the hand-over record, and puts it into the variable n as a position
 of motor 2. A remark `* &n IS NAME` hands the variable n over as the height NAME. ML has no word with which a program
@@ -304,7 +304,7 @@ class MlLeg(ToolLeg, RunningMl):
 
 
 def _given(plan: MlPlan) -> dict[str, int]:
-    """Return the variables that a program expects from the record, by name."""
+    """Return the variables that receive heights from the hand-over record. The keys are the names of the heights."""
     return {
         found[1]: int(found[2])
         for line in plan.text.splitlines()
@@ -313,7 +313,7 @@ def _given(plan: MlPlan) -> dict[str, int]:
 
 
 def _taken(plan: MlPlan) -> dict[str, int]:
-    """Return the variables that a program hands over, by name."""
+    """Return the variables that a program hands over as heights. The keys are the names of the heights."""
     return {
         found[2]: int(found[1])
         for line in plan.text.splitlines()

@@ -26,8 +26,8 @@ class Shape(NamedTuple):
 
 
 class View(Protocol):
-    """Contents of a table that another part of MOS keeps. Lines and words count from 1; callers ask only for lines and
-    words that exist.
+    """The contents of a table. Another part of MOS keeps these contents. Lines and words count from 1; callers ask
+    only for lines and words that exist.
     """
 
     def read(self, line: int, word: int) -> int:
@@ -47,7 +47,7 @@ class Level(ABC):
 
     @abstractmethod
     def cycle(self) -> None:
-        """Execute one cycle of 10 ms: sample, check sensors, check goals, output."""
+        """Execute one cycle of 10 ms: sample the inputs, check the sensors, check the goals, and set the outputs."""
 
     @property
     @abstractmethod
@@ -68,11 +68,11 @@ class Level(ABC):
     @property
     @abstractmethod
     def shapes(self) -> Mapping[str, Shape]:
-        """Layouts of all tables, by their names of two letters."""
+        """Layouts of all tables. The keys are the tables' names of two letters."""
 
     @abstractmethod
     def read(self, table: str, line: int, word: int) -> int:
-        """Return a word of a table. Lines and words count from 1. Raises MlError (M11) if there is no such word."""
+        """Return a word of a table. Lines and words count from 1. Raises MlError (M11) if the word does not exist."""
 
     @abstractmethod
     def write(self, table: str, line: int, word: int, value: int) -> None:
@@ -94,30 +94,30 @@ class Level(ABC):
     @abstractmethod
     def expect(self, sensor: int, lower: int, upper: int) -> None:
         """Set the expected limits of a sensor, and clear its flag. Raises MlError if the limits are in the wrong order
-        (M04), or if there is no such sensor (M11).
+        (M04), or if no sensor has this number (M11).
         """
 
     @abstractmethod
     def open(self, sensor: int | None = None) -> None:
         """Open the limits of a sensor, so that every reading is within the limits, and clear the sensor's flag. If no
-        number is given, open the limits and clear the flags of all sensors. Raises MlError (M11) if there is no such
-        sensor.
+        number is given, open the limits and clear the flags of all sensors. Raises MlError (M11) if no sensor has this
+        number.
         """
 
     @abstractmethod
     def reading(self, sensor: int) -> int:
-        """Return the latest reading of a logical sensor. Raises MlError (M11) if there is no such sensor."""
+        """Return the latest reading of a logical sensor. Raises MlError (M11) if no sensor has this number."""
 
     @abstractmethod
     def calibrate(self, sensors: Sequence[int]) -> None:
         """Take the mean of the last 8 readings of each sensor as its zero. If `sensors` is empty, do this for all
-        analog sensors. Raises MlError (M11) if there is no such sensor.
+        analog sensors. Raises MlError (M11) if a number is not the number of a sensor.
         """
 
     @abstractmethod
     def wand(self, sensor: int) -> None:
         """Assign the wand to a logical sensor. From then on, the sensor's flag comes on if the wand touches something.
-        Raises MlError (M11) if there is no such sensor, or if the arm has no wand.
+        Raises MlError (M11) if no sensor has this number, or if the arm has no wand.
         """
 
     # -- motors ---------------------------------------------------------------------------------------
@@ -158,9 +158,7 @@ class Level(ABC):
 
     @abstractmethod
     def statement(self, number: int) -> None:
-        """Give the level the number of the statement that is executed from now on. The number is 0 for a line that is
-        not stored.
-        """
+        """Note the number of the statement that is now being executed; 0 for a line that is not stored."""
 
     @abstractmethod
     def emergency(self, cause: str, statement: int) -> None:
@@ -179,14 +177,14 @@ class Level(ABC):
 
     @abstractmethod
     def analog_in(self, point: int) -> int:
-        """Return an analog input. Raises MlError (M11) if there is no such input."""
+        """Return an analog input. Raises MlError (M11) if the input does not exist."""
 
     @abstractmethod
     def analog_out(self, point: int, value: int) -> None:
-        """Set an analog output. Raises MlError: M11 if there is no such output, and M15 while the pump is on."""
+        """Set an analog output. Raises MlError: M11 if the output does not exist, and M15 while the pump is on."""
 
     @abstractmethod
     def digital_out(self, word: int, value: int, mask: int) -> None:
-        """Copy to a digital output word those bits of `value` for which the bit in `mask` is 1. Raises
-        MlError: M11 if there is no such word, and M15 while the pump is on.
+        """Copy bits of `value` to a digital output word. A bit is copied if the same bit of `mask` is 1. Raises
+        MlError: M11 if the word does not exist, and M15 while the pump is on.
         """

@@ -43,7 +43,7 @@ class Ml:
             text: a program to be stored.
             outline: corners of an object that the wand can touch, each as (y, x) in .001 inch.
             stimuli: values that sensors have at certain times or while a motor is at certain positions.
-            senses: such values as texts, in the form of `handeye ml run --sense`: with `5=500@3:2750`, sensor 5 reads
+            senses: stimuli written as texts, as in `handeye ml run --sense`: with `5=500@3:2750`, sensor 5 reads
                 500 while motor 3 is at 2750 or farther away from 0.
             procedures: a dictionary from the names of commands, `UPROCA` to `UPROCD`, to the functions that these
                 commands call. Each function is called with the interpreter of this `Ml` and the values of the
@@ -127,11 +127,11 @@ class Ml:
             self._machine.cycle()
 
     def read(self, table: str, line: int, word: int = 1) -> int:
-        """Return a word of a table, such as `read("MT", 3, 1)`. Raises MlError if there is no such word."""
+        """Return a word of a table, such as `read("MT", 3, 1)`. Raises MlError if the word does not exist."""
         return self._mos.level.read(table.upper(), line, word)
 
     def variable(self, number: int) -> int:
-        """Return the value of a variable. Raises MlError if there is no such variable."""
+        """Return the value of a variable. Raises MlError if no variable has this number."""
         return self._mos.variable(number)
 
     def position(self, motor: int) -> int:
@@ -157,9 +157,10 @@ class Ml:
             phase: moment of the contact within the period. 0 is just after a reading; a value near 1 is just before
                 the next reading.
 
-        Returns: when the limit was noticed (`noticed`, ms after the contact), how far the slide moved after the
-            contact (`way`, mm), the greatest force of both fingers (`force`, N), the force on a finger at the start of
-            the motion (`jolt`, N), and the `places` (mm), `goals` (mm) and `forces` (N) at the `times` (ms).
+        Returns: the touch. `noticed` is the time from the contact until the limit was noticed (ms). `way` is how far
+            the slide moved after the contact (mm). `force` is the greatest force of both fingers (N), and `jolt` the
+            force on a finger at the start of the motion (N). The touch also has the `places` (mm), `goals` (mm) and
+            `forces` (N) at the `times` (ms).
 
         Raises:
             BadArgument: a value is out of range.

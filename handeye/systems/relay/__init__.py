@@ -1,4 +1,4 @@
-"""The relay: the stages of one task, each done by a program in the language of one system, on one arm."""
+"""The relay: programs in the languages of several systems do the stages of one task in turn, with the same arm."""
 
 from handeye.core.entries import Entry
 

@@ -21,7 +21,9 @@ class LegStep:
 
 
 def memories(plan: RelayPlan, state: RelayCore) -> dict[str, SystemState]:
-    """Return the memories of the programs, by file. Raises BadFile if a memory is missing."""
+    """Return the memories of the programs. The keys are the files of the programs. Raises BadFile if a memory is
+    missing.
+    """
     try:
         return {program.file: getattr(state, program.system)[program.file] for program in plan.programs}
     except KeyError as missing:
@@ -29,7 +31,7 @@ def memories(plan: RelayPlan, state: RelayCore) -> dict[str, SystemState]:
 
 
 def fits(plan: RelayPlan, state: RelayCore) -> bool:
-    """Return True if the relay has the leg and the step numbers that a state contains."""
+    """Return True if the leg and the steps that a state names exist in the relay."""
     count = range(len(listing(plan).steps))
     return state.leg in range(len(plan.legs)) and all(
         number is None or number in count for number in (state.at, state.onward)
@@ -55,8 +57,8 @@ def executed(plan: RelayPlan, state: RelayCore) -> list[LegStep]:
 
 
 def own_legs(plan: RelayPlan, state: RelayCore) -> tuple[Leg, ...]:
-    """Return the leg that has the arm, and the legs of its program that directly precede this leg. The leg that has
-    the arm comes last.
+    """Return the leg that has the arm, and the legs directly before it that belong to the same program. The leg that
+    has the arm comes last.
     """
     all_legs, here = legs(plan), last_leg(state)
     first = here
@@ -85,7 +87,7 @@ def check_order(plan: RelayPlan, state: RelayCore, undoing: ReversalOrder) -> No
 def own_order(plan: RelayPlan, state: RelayCore, undoing: ReversalOrder) -> ReversalOrder | None:
     """Return the part of an order to undo that the present program can carry out: the steps that this program has
     executed since it took the arm over. The returned order has this program's own step numbers. Returns None if the
-    order names no such steps.
+    order names none of these steps.
     """
     own, done = own_legs(plan, state), executed(plan, state)
     before = sum(each.step < own[0].first for each in done)

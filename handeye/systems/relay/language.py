@@ -11,7 +11,7 @@ from handeye.systems.relay.reading import NO_LEGS, NO_SYSTEM, REPEATED, UNREADAB
 _CODES: Final = {
     UNREADABLE: 'a line of a relay has the form STAGE "name of the stage" FILE',
     REPEATED: "two legs run stages that have the same name",
-    NO_SYSTEM: "a file with this extension is not a program of a system that can run a leg",
+    NO_SYSTEM: "a file with this extension cannot be a leg of a relay",
     NO_LEGS: "a relay has 1 to 100 legs",
 }
 

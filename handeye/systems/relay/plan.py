@@ -30,7 +30,7 @@ class ProgramPlan(Record, frozen=True, kw_only=True):
 
 
 class LegPlan(Record, frozen=True, kw_only=True):
-    """A leg: a stage of the task, and the file of the program that does it."""
+    """A leg: a stage of the task, and the file of the program that does this stage."""
 
     stage: str
     file: str

@@ -51,7 +51,7 @@ from handeye.vision.marks import Mark
 
 
 class RunningRelay(RunningSystem):
-    """The programs of a relay on their common cell."""
+    """A relay that is executed: its programs, and the cell that they have in common."""
 
     def __init__(self, setup: Setup, around: RunCallbacks, state: RelayCore) -> None:
         """Build the cell and all programs. `state` is the empty state of the relay."""
@@ -383,8 +383,9 @@ class RunningRelay(RunningSystem):
     # -- events -------------------------------------------------------------------------------------------
 
     def _retell(self, event: AnyEvent) -> None:
-        """Emit an event of a program, but with the step numbers and stages of the relay instead of the program's own.
-        An order to undo steps gives one `UndoOrdered` and one `UndoEnded`, even if several programs execute it.
+        """Emit an event of a program. In the emitted event, the step numbers and stages of the relay replace the
+        program's own. An order to undo steps gives one `UndoOrdered` and one `UndoEnded`, even if several programs
+        execute it.
         """
         if isinstance(event, UndoOrdered):
             if self._state.undoing is not None:
@@ -412,5 +413,5 @@ class RunningRelay(RunningSystem):
             self._held.append(event)
 
     def _stage(self, name: str) -> str:
-        """Return the stage of the relay that has the name `name` in a program."""
+        """Return the name that a stage has in the relay. `name` is the stage's name in the program."""
         return name if name in self._listing.stages else self.leg.stage

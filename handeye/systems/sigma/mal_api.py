@@ -50,7 +50,7 @@ class Mal:
             faults: faults of the gantries and their bus, such as `no-reflex` or `phase.X1`.
 
         Raises:
-            InvalidInput: the program has mistakes, or there is no such arm or fault.
+            InvalidInput: the program has mistakes, or `arm` or `faults` has an unknown name.
         """
         if arm not in get_args(Arm):
             raise NoSuchName(f"there is no arm {quoted(str(arm))}; choose `none` or `gantries`")

@@ -36,7 +36,8 @@ class Microbus:
 
         Args:
             faults: injected faults, written like `--fault` of `handeye sigma bus demo`, for example `clock:X1:200`.
-            seed: seed of the random times at which the microcomputers begin to poll, and of their clock errors.
+            seed: seed of the random numbers. These are the times at which the microcomputers begin to poll, and the
+                errors of their clocks.
             clock_spread: greatest clock error, as a fraction, for example .005.
         """
         if not 0 <= clock_spread < 1:
@@ -76,7 +77,7 @@ class Microbus:
             value: bytes 4 and 5 of other operations.
 
         Raises:
-            NoSuchName: there is no such microcomputer or operation.
+            NoSuchName: no microcomputer has the name `name`, or no operation the name `op`.
             BadArgument: a number is outside its range, or the operation is a question.
         """
         kind = _op(op)
@@ -147,7 +148,7 @@ class Microbus:
         last = self._bus.now if end is None else _microseconds(end)
         if last <= first:
             raise BadArgument(
-                f"a diagram must end after its beginning, not go from {begin:g} s to {last / 1e6:g} s"
+                f"a diagram must end after its beginning; this one would go from {begin:g} s to {last / 1e6:g} s"
             )
         return first, last
 

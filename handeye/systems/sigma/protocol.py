@@ -165,7 +165,7 @@ def set_position(axis: str | int, count: int) -> Command:
 
 def force(arm: int, component: str, *, peak: bool = False) -> Command:
     """Make the question for a component of the force on a wrist. The answer is the present value or, if `peak` is
-    True, the greatest value since the last such question.
+    True, the greatest value since the last question for a greatest value.
     """
     op = Op.PEAK_FORCE if peak else Op.FORCE
     return Command(number=number_of(f"FORCE{arm}"), op=op, detail=COMPONENTS.index(component))

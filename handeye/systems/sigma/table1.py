@@ -79,8 +79,8 @@ class Claim(Record, frozen=True, kw_only=True):
 
 
 class Table1(Record, frozen=True, kw_only=True):
-    """The rows of the paper's table, the loads in layer 1 and in layer 2, the loads of programs that calculate, and
-    the claims.
+    """The rows of the paper's table, and the paper's claims. Also the simulated loads: of layer 1, of layer 2, and of
+    programs that calculate.
     """
 
     paper: tuple[PaperRow, ...]
@@ -123,7 +123,7 @@ def calculating(calculations: int, moves: int = 20) -> str:
 
 
 def load(name: str, text: str, statement_us: int = STATEMENT_US) -> Load:
-    """Run a program on perfect motors, and measure how much it loads bus and computer."""
+    """Run a program on perfect motors, and measure how much the program loads the bus and the computer."""
     motors = PerfectMotors()
     vm = VirtualMachine(program_of(f"{name}.mal", text), motors, statement_us=statement_us)
     vm.begin()

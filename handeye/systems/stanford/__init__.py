@@ -1,4 +1,4 @@
-"""The hand-eye system of 1973: executes plans of motions, and stores camera calibrations."""
+"""The hand-eye system of 1973. It executes plans of motions, and stores camera calibrations."""
 
 from handeye.core.entries import PLANNED, Entry
 

@@ -27,7 +27,7 @@ def cache(
 
     Before the first instruction, a run measures the arm's joints and calibrates the camera. handeye keeps the results,
     and uses them in later runs with the same world, the same kind of pictures and the same versions of the software.
-    Such a run starts at once, and its trace has the same bytes as the trace of a run that measures. `--calibrate`
+    A later run starts at once, and its trace has the same bytes as the trace of a run that measures. `--calibrate`
     measures again. One calibration takes about 6 kB. All calibrations together take at most 16 MB; to keep this limit,
     handeye removes the oldest calibrations. To keep the files in another folder, write its path into the environment
     variable HANDEYE_CACHE. If this variable is set but empty, nothing is kept.

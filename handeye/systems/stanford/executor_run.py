@@ -372,8 +372,8 @@ class PlanSystem(System):
         return plan.arm, plan.arm_digest
 
     def check(self, setup: Setup) -> None:
-        """Raise InvalidInput if the plan was made for another arm, if the task cannot have the world of the setup, or
-        if the task lacks one of the setup's faults.
+        """Raise InvalidInput if the plan was made for another arm, if the world of the setup is impossible in this
+        task, or if a fault of the setup cannot occur in it.
         """
         world, plan = setup.world, plan_of(setup)
         task(setup.task).check_arm(plan)

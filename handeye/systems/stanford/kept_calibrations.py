@@ -56,8 +56,8 @@ class KeptCalibrations:
         return cls(None if folder is None else folder / "calibrations")
 
     def find(self, wanted: Conditions) -> Preparation | None:
-        """Return the preparation stored for these conditions, or None if there is no such preparation or its file
-        cannot be used.
+        """Return the preparation stored for these conditions, or None if no preparation is stored for them, or if the
+        file cannot be used.
         """
         if self.folder is None:
             return None
@@ -67,8 +67,9 @@ class KeptCalibrations:
             return None
 
     def keep(self, conditions: Conditions, preparation: Preparation) -> None:
-        """Store a preparation, replacing an earlier one for the same conditions, and remove old files. Raises
-        CannotWrite."""
+        """Store a preparation, replacing an earlier one for the same conditions. Then remove old files. Raises
+        CannotWrite if the file cannot be written.
+        """
         if self.folder is None:
             return
         try:

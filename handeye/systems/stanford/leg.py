@@ -56,9 +56,8 @@ class PlanLeg(RunningPlan, RunningLeg):
                 state.world.moved[name] = Position(at=(x, y, z, o, a, t))
 
     def _found(self, stage: str, kind: Kind, record: HandOver) -> Mapping[str, np.ndarray]:
-        """Return the values of the record that this program knows by name. Raises Refused in two cases: neither this
-        program nor the record has a value that the stage needs, or the value in the record is not of the kind that the
-        stage needs.
+        """Return those values of the record whose names this program uses. Raises Refused if a value that the stage
+        needs is neither in this program nor in the record, or if it is of the wrong kind in the record.
         """
         program, state = self.plan.program, self.state
         own = {"difference": {*state.saved}, "height": {*state.heights}, "place": {*program.positions}}[kind]
@@ -200,7 +199,7 @@ class PlanLegs(LegSystem):
         return found + [
             Lack(
                 step.line,
-                f"the program may continue in the middle of the stage {quoted(program.stages[there.stage])}",
+                f"this step can lead into the middle of the stage {quoted(program.stages[there.stage])}",
             )
             for step in steps
             for there in (program.steps[way] for way in step.ways if way is not None and way not in numbers)

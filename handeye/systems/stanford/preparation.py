@@ -25,7 +25,7 @@ from handeye.vision.calibration import Calibration
 
 
 class Preparation(Record, frozen=True, kw_only=True):
-    """The state of cell and run after the preparation."""
+    """The state of the cell and of the run after the preparation."""
 
     cell: CellState
     drive: DriveState
@@ -50,7 +50,7 @@ def preparation_of(
 
 
 def take_up(preparation: Preparation, run: ExecutionContext, cell: SimulatedCell) -> None:
-    """Set cell and run to the state after a preparation. If the preparation does not fit, change nothing and
+    """Set the cell and the run to the state after a preparation. If the preparation does not fit, change nothing and
     raise InvalidInput.
     """
     state = copied(run.state)

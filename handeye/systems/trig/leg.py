@@ -1,10 +1,10 @@
-"""Lets TRIG run legs of a relay. In a leg, a TRIG program moves the tool of the Stanford arm instead of the Purbrick
+"""Lets TRIG run legs of a relay. In a leg, a TRIG program does not move the Purbrick arm, but the tool of the Stanford
 arm.
 
 TRIG's platter is a part of the table: its centre is at x = 20 and y = 36.5 in. X, Y and Z are parallel to the axes of
-the table, and a hand with ROLL, PITCH and YAW 0 points straight down, with its finger line along Y. The leg's program
-is taught on an ideal arm, by the script of the leg. So the taught places are exact, like the positions in the arm
-language's taught file, which are computed from the drawing.
+the table. If ROLL, PITCH and YAW are 0, the hand points straight down, with its finger line along Y. The leg's program
+is taught on an ideal arm, by the script of the leg. So the taught places are exact. The positions in the arm
+language's taught file are exact too, because they are computed from the drawing.
 
 TRIG has no command with which a program can report that it has failed. Therefore a leg counts as successful only if
 its program ends at the step FINISH.

@@ -18,8 +18,8 @@ REFUSED: Final = "line-refused"
 UNSOUND: Final = "program-unsound"
 _CODES: Final = {
     REFUSED: (
-        "a line of a script fails on an arm without physics, on which the check executes the script; the following "
-        "lines were not checked"
+        "the check executes the script on an arm without physics, and a line fails there; the following lines were "
+        "not checked"
     ),
     UNSOUND: "the file does not contain a valid program in the form that the command W writes",
 }

@@ -72,7 +72,8 @@ class TrigSession:
         width, 3).
 
         Raises:
-            InvalidInput: the arm is `none` (it has no physics), or OpenGL is missing, or the size is impossible.
+            InvalidInput: the arm is `none` (it has no physics), or OpenGL is missing, or the size is outside the
+                limits of a photograph.
         """
         table = self._session.table
         if not isinstance(table, SeenTable):

@@ -47,7 +47,7 @@ _METAL: Final = ("solid", "tap", "bore", "base_land", "shoulder", "nose")
 
 
 def build(world: InsertionWorld) -> mujoco.MjModel:
-    """Compile the scene. All joint positions are zero, which is outside the limits of joint 3: set a
+    """Compile the scene. All joint positions are zero. Zero is outside the limits of joint 3, so the caller must set a
     configuration before the first physics step.
     """
     spec = mujoco.MjSpec.from_file(str(scenes() / "water_pump" / "workcell.xml"))

@@ -1,5 +1,5 @@
-"""The worlds of the insertion bench. Arm and hand have the errors that they have in every cell of the Stanford
-arm; the bench adds one hole.
+"""The worlds of the insertion bench. The errors of arm and hand are drawn as for every cell of the Stanford arm; the
+bench adds one hole.
 """
 
 from dataclasses import dataclass

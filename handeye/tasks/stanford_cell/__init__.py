@@ -1,2 +1,3 @@
-"""Parts common to all cells with the Stanford arm: the arm with its true errors, dimensions, and shapes of
-metal parts."""
+"""Parts of all cells with the Stanford arm: dimensions, shapes of metal parts, and the arm with the errors of its
+world.
+"""

@@ -1,4 +1,4 @@
-"""The quantities in which the Stanford arm and its hand differ from the controller's model of them. Joints are
+"""The quantities in which the simulated Stanford arm and its hand differ from the controller's model. Joints are
 numbered from 1.
 """
 
@@ -85,17 +85,17 @@ def arm() -> Iterator[Quantity]:
             "Amplitude of the periodic error of the position reading. The periodic error limits the distance over "
             "which a saved correction is valid.",
             unsourced="no data sheet of 1974 gives this amplitude. Today's data sheets give the greatest deviation "
-            "from a straight line (.15 to .25 % of the travel for wire-wound potentiometers, 1 to 2 % for "
-            "conductive plastic: Bourns 3400 to 3590, 6537 to 6639). These data sheets do not say whether this "
-            "deviation is periodic. Bound: .18 deg for joint 1, .16 deg for joint 2, .10 in for joint 3, .59 deg "
-            "for joint 4, .57 deg for joint 5; each of these amplitudes alone would explain the error of .1 in of "
-            "the whole arm (layout study, section 4)."),
+            "of the reading from a straight line (.15 to .25 % of the travel for wire-wound potentiometers, 1 to 2 "
+            "% for conductive plastic: Bourns 3400 to 3590, 6537 to 6639). These data sheets do not say whether "
+            "this deviation is periodic. Bound: .18 deg for joint 1, .16 deg for joint 2, .10 in for joint 3, .59 "
+            "deg for joint 4, .57 deg for joint 5; each of these amplitudes alone would explain the error of .1 in "
+            "of the whole arm (layout study, section 4)."),
         group("arm.wave_phase", phases, "deg", "Phase of the periodic error of the position reading."),
         group("arm.pot_noise", numbered(Noise, 0.004, 0.004, 0.002, 0.01, 0.01, 0.01), JOINT_UNITS,
             "Noise of the potentiometers before the converter. This noise differs from reading to reading.",
-            unsourced="the noise is far smaller than a step of the converter (.05 to .08 deg and .009 in), so the "
-                "converter does not show it. Bound: the output smoothness of the Bourns 6639, .1 % of the travel, "
-                "which is four steps of the converter."),
+            unsourced="we chose a noise far smaller than a step of the converter (.05 to .08 deg and .009 in), so "
+            "the converter does not show it. Bound: four steps of the converter, because the output smoothness of "
+            "the Bourns 6639 is .1 % of the travel."),
         group("arm.pot_step", numbered(Step, *(position_step(STANFORD) / size).tolist()), JOINT_UNITS,
             f"One step of the converter of a potentiometer: {SENSE_BITS} bits over the joint's travel. Data sheet of "
             "1974."),
@@ -105,7 +105,7 @@ def arm() -> Iterator[Quantity]:
             "37 to 146 times this noise, so the converter does not show the noise."),
         group("arm.tachometer_step", numbered(Step, *rate_step(STANFORD).tolist()), _RATES,
             f"One step of the converter of a tachometer: {SENSE_BITS} bits over the range of the joint's speeds in "
-            "both directions. Data sheet of 1974; we infer that the range ends at the greatest speed."),
+            "both directions. Data sheet of 1974; we infer that the range ends at the joint's greatest speed."),
         group("arm.torque_step", numbered(Step, *torque_step(STANFORD).tolist()), _TORQUES,
             f"One step of the converter that sets the torque of a drive: {TORQUE_BITS} bits over the range of the "
             'drive\'s torques in both directions. Data sheet of 1974: "8 bits or more".'),
@@ -128,8 +128,8 @@ def arm() -> Iterator[Quantity]:
             unsourced="the masses were published without a tolerance. To correct the error of the masses, the arm "
             f"weighs its links. {DOUBLED}"),
         group("arm.mass_centre", numbered(Uniform, *[5.0] * 6), "%",
-            "Distance between a link's centre of mass and its joint: relative deviation of the true distance from "
-            "the controller's value.", least=-90.0,
+            "True distance between a link's joint and its centre of mass, as a relative deviation from the "
+            "controller's value.", least=-90.0,
             unsourced="the centres of mass, like the masses, were published without a tolerance. To correct the "
             f"errors of these centres, the arm weighs its links. {DOUBLED}"),
         group("arm", {"hand_length": Uniform(0.02)}, "in",
@@ -140,8 +140,8 @@ def arm() -> Iterator[Quantity]:
 
 
 def _friction() -> Iterator[Quantity]:
-    """Yield the Coulomb friction of the joints. According to the paper, a released arm stays in place; this says
-    nothing about the friction of joint 1, which carries no weight.
+    """Yield the Coulomb friction of the joints. According to the paper, a released arm stays in place. This statement
+    does not concern joint 1, because joint 1 carries no weight.
     """
     means = STANFORD.compliance.friction
     what = (
@@ -152,16 +152,16 @@ def _friction() -> Iterator[Quantity]:
     yield from group(
         "arm.friction", dict([first]), _TORQUES[:1], what, nominal=means[0], least=0.0,
         unsourced="the friction of the other joints is inferred from the paper: when the arm is released, these "
-        "joints do not move under the weight of the links. Joint 1 carries no weight, so the paper says nothing "
-        f"about its friction. {DOUBLED}",
+        "joints do not move under the weight of the links. Joint 1 carries no weight, so this observation says "
+        f"nothing about the friction of joint 1. {DOUBLED}",
     )  # fmt: skip
     yield from group(
         "arm.friction", dict(others), _TORQUES[1:],
         f"{what} Inferred from the paper, in which a released arm stays in place. The friction of joints 2 and 3 "
-        "must therefore withstand half a converter step of their torques, and in addition the gravity "
-        "that is not compensated after the arm has weighed its links (.25 N m and .7 N at the parked posture, in "
-        "the worst of 200 worlds). The friction of the wrist joints must withstand half a converter "
-        "step of their torques.",
+        "must therefore withstand the sum of two loads. One is half a converter step of their torques. The other "
+        "is the weight that the arm does not compensate after it has weighed its links: .25 N m and .7 N at the "
+        "parked posture, in the worst of 200 worlds. The friction of the wrist joints must withstand half a "
+        "converter step of their torques.",
         nominal=means[1:], least=0.0,
     )  # fmt: skip
 
@@ -186,15 +186,15 @@ def hand() -> Iterator[Quantity]:
             "ounces, and suggest 2 oz for a simulation.",
             nominal=2.0, least=0.0),
         group("hand.lamp", {axis: Normal(0.03) for axis in "xyz"}, "in",
-            "Deviation of the lamp's position in the hand from its position in the drawing, which the calibration "
-            "of the camera uses.",
+            "Deviation of the lamp's position in the hand from its position in the drawing. The calibration of the "
+            "camera uses the position in the drawing.",
             unsourced="the lamp is screwed on by hand and set with a steel rule, which has divisions of 1/64 in. "
             "Bound: 1/16 in, two sigma."),
     )  # fmt: skip
 
 
 def rubbing(kinds: Sequence[str]) -> Iterator[Quantity]:
-    """Yield, for each named kind of shape, the relative error of its coefficient of friction."""
+    """Yield one quantity for each kind of shape in `kinds`: the relative error of the coefficient of friction."""
     yield from group(
         "friction", {name: Uniform(15.0) for name in kinds}, "%",
         "Relative deviation of the coefficients of friction from their values in the drawing.", least=-100.0,

@@ -147,7 +147,7 @@ def standard() -> Pose:
 
 
 def dispenser_places(count: int = 6) -> tuple[Point, ...]:
-    """Return the positions of the screws in the dispenser in the table frame (m)."""
+    """Return the table-frame positions (m) of the screws that hang in the dispenser."""
     d = dimensions()
     x, y = d.all("dispenser.place")
     return tuple((x, y + (k - 2.5) * d("dispenser.pitch")) for k in range(count))

@@ -1,6 +1,6 @@
-"""Pins, screws, tapped holes, and the bit that drives the screws, in the form that `handeye/cell/threads.py` needs. A
-scene can use these shapes if the parts of the scene have the styles of this file. Places and lengths are in mm, with z
-up.
+"""Adds pins, screws, tapped holes, and the bit that drives the screws. `handeye/cell/threads.py` simulates the
+threads. A scene that uses the shapes must also use the styles that `add_styles` defines. Places and lengths are in mm,
+with z up.
 """
 
 from math import cos, nan, pi, sin, sqrt
@@ -170,7 +170,9 @@ def add_loose(shaper: Shaper, name: str, at: Place, z: float) -> mujoco.MjsBody:
 
 
 def add_thread(shaper: Shaper, base: mujoco.MjsBody, number: int, at: Place, height: float) -> None:
-    """Add the carrier that represents a screw in its thread, as `handeye/cell/threads.py` needs it."""
+    """Add the carrier that represents a screw in its thread. `handeye/cell/threads.py` needs one carrier for each
+    thread.
+    """
     carrier = base.add_body(name=f"carrier{number}", pos=[at.x * MM, at.y * MM, height * MM])
     carrier.gravcomp = 1.0
     body_inertia(carrier, 0.005, (0.0, 0.0, 0.0), (1e-7, 1e-7, 1e-7))
@@ -239,7 +241,9 @@ def add_pin(shaper: Shaper, body: mujoco.MjsBody) -> None:
 
 
 def _turned(rows: list[tuple[float, float]], sides: int = 16) -> Array:
-    """Return the corners (m) of a body of revolution. `rows` are its rings: (radius, height) of each, in mm."""
+    """Return the corners (m) of a body of revolution. `rows` gives the radius and the height of each ring of corners,
+    in mm.
+    """
     angles = 2 * pi * np.arange(sides) / sides
     return (
         np.concatenate(

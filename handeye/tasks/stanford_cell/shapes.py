@@ -109,8 +109,8 @@ class Shaper:
         return wedges
 
     def group(self, body: mujoco.MjsBody, shapes: str) -> mujoco.MjsBody:
-        """Add a body, fixed to a part, for some of the shapes of the part: its bores, or its lands (the small raised
-        faces on which the part rests).
+        """Add a separate body for the bores of a part, or for its lands (the small raised faces on which the part
+        rests). The body is fixed to the part.
 
         The simulator first searches for contacts between bodies, then between their shapes. Two stacked parts touch
         only at their lands, and only fasteners touch the many wedges of bores. If lands and bores are in bodies of
@@ -152,8 +152,9 @@ def _named(geom: mujoco.MjsGeom, name: str, material: str | None) -> mujoco.MjsG
 
 
 def body_inertia(body: mujoco.MjsBody, mass: float, centre: Vector, moments: Vector) -> None:
-    """Set the mass (kg), centre of mass (m) and principal moments of inertia (kg m2) of a body, instead of
-    computing them from its geoms."""
+    """Set the mass (kg), centre of mass (m) and principal moments of inertia (kg m2) of a body. MuJoCo then does not
+    compute these values from the body's geoms.
+    """
     body.explicitinertial = True
     body.mass = mass
     body.ipos[:] = centre

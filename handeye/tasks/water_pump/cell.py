@@ -75,8 +75,8 @@ def build_cell(world: PumpWorld, *, camera: str | RendererMaker = "auto", rest: 
 
 def carrying(screws: int) -> Carrying:
     """List the pairs of bodies that may touch while the simulator takes long steps: the hand and a loose part that it
-    holds, and the screwdriver and its screw. In steps of middle length, the screwdriver may touch nothing, the hand
-    may not touch the base, and no screw may turn in its thread; all other bodies may touch.
+    holds, and the screwdriver and its screw. In steps of middle length, the screwdriver must not touch any body, and
+    the hand must not touch the base. No screw may turn in its thread. All other contacts are allowed.
     """
     hand, driver, fastened = f"{ARM}link6", "driver", [f"screw{k}" for k in range(screws)]
     loose = ("base", "gasket", "top", "pin0", "pin1", driver, *fastened)

@@ -8,10 +8,10 @@ bit is on the carrier's screw head, and this contact wakes the base. A driver wh
 explicitly.
 
 *Clamping.* Two seated screws press gasket and top on the base, and friction holds gasket and top in place. From then
-on, welds hold the two layers, and the contacts between the layers are switched off, because these contacts take most
-of the stack's computing time. The contacts are switched on again in three cases: if a hand, a shank or any other body
-pushes a layer sideways with more than the friction force; if such a body lifts a layer with more than the clamping
-force; or if fewer than two screws clamp the layers.
+on, welds hold the two layers. The contacts between the layers are switched off, because they take most of the stack's
+computing time. The contacts are switched on again if fewer than two screws clamp the layers. They are also switched on
+again if another body pushes a layer too hard: sideways with more than the friction force, or upwards with more than
+the clamping force. This body may be the hand or the shank of a screw, for example.
 """
 
 from typing import Final
@@ -127,7 +127,7 @@ class Clamping(Mechanism[ClampingState]):
         return [contacts for contacts in touched if contacts]
 
     def _pushed(self, contacts: list[tuple[int, float]]) -> Array:
-        """Return the total force in W (N, shape (3,)) on a layer from these contacts."""
+        """Return the total force in W (N, shape (3,)) that the given contacts exert on a layer."""
         model, data, total, found = self._model, self._data, np.zeros(3), np.zeros(6)
         for contact, sign in contacts:
             mujoco.mj_contactForce(model, data, contact, found)
@@ -147,11 +147,15 @@ class Clamping(Mechanism[ClampingState]):
         model.geom_conaffinity[self._lands] = 0
 
     def release(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
-        """Open the welds and restore the contacts of the layers, in this model or in a copy of it."""
+        """Open the welds and restore the contacts of the layers in `model` and `data`. `model` is the model of the
+        cell or a copy of this model.
+        """
         data.eq_active[self._welds] = 0
         model.geom_contype[self._lands], model.geom_conaffinity[self._lands] = self._bits
 
 
 def lands_of(drawn: mujoco.MjModel) -> NDArray[np.intp]:
-    """Return the indices of the geoms that form the lands of gasket and top. Nothing may be clamped in the scene."""
+    """Return the indices of the geoms that form the lands of gasket and top. The layers of the scene must not be
+    clamped.
+    """
     return np.flatnonzero(np.isin(drawn.geom_contype, _LANDS))

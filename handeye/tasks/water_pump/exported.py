@@ -1,4 +1,5 @@
-"""Exports the pump's cell to other programs, with readable names, the screws in their holes, and no mechanisms.
+"""Exports the pump's cell to other programs. In the export, names are readable, screws are in their holes, and there
+are no mechanisms.
 
 In the simulated cell, a carrier represents a screw in its thread, and the screw itself lies on a tray below the
 floor (`cell/threads.py`). In the export, the screw is in its hole, at the pose of the carrier, welded to the
@@ -43,7 +44,9 @@ _MECHANISMS: Final = {
 
 
 def exported(world: PumpWorld, truth: Truth, keyframe: str) -> ExportedScene:
-    """Return the scene of a world with every object where it really is. Arguments are those of `Task.exported`."""
+    """Return the scene of a world, with every object at its true pose. The arguments are the same as for
+    `Task.exported`.
+    """
     model, data = truth.copy()
     spec = specification(world)
     model.eq_data[:] = spec.compile().eq_data  # reset to the design, because the bonds are deleted below
@@ -69,8 +72,8 @@ def exported(world: PumpWorld, truth: Truth, keyframe: str) -> ExportedScene:
 
 
 def _densities(spec: mujoco.MjSpec, cast: float) -> dict[str, float]:
-    """Return the densities (kg/m3) of the solids that consist of a single metal. `cast` is the factor by which the
-    densities of base and top in this world differ from those of the design.
+    """Return the densities (kg/m3) of the solids that consist of a single metal. In this world, the densities of base
+    and top are `cast` times the densities of the design.
     """
     steel = spec.find_default("shank")
     assert steel is not None

@@ -30,7 +30,7 @@ LIMIT: Final = 300.0  # s after which a process counts as hanging
 
 
 class ReachedPosition(StopCondition, frozen=True, kw_only=True):
-    """Pause when this number of steps is done."""
+    """Pause when the run has done `position` steps."""
 
     position: int
 
@@ -156,8 +156,8 @@ class Interruption(ReachedPosition, frozen=True, kw_only=True):
 
 
 def kill_resumed(folder: Path, events: int) -> None:
-    """Resume a run in a separate process. Unless the run ends earlier, the process is killed when the run has
-    written this number of further events.
+    """Resume a run in a separate process. Unless the run ends earlier, the process is killed when the run has written
+    `events` further events.
     """
     journal = folder / EVENTS
     enough = _lines(journal) + events + 1  # and the event for the resumption

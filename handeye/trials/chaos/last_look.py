@@ -1,7 +1,6 @@
-"""Decides whether a fault spoiled finished work only after the program looked at this work for the last time.
-
-No program can notice such a fault. The proof of the program (`handeye.proof`) names the steps that look at the work:
-these steps show a claim on which a finding of the referee rests.
+"""Decides whether a fault spoiled finished work too late to be noticed. No program can notice a fault that comes after
+the program's last look at the spoiled work. The proof of the program (`handeye.proof`) names the steps that look at
+the work. Each of these steps shows a claim on which a finding of the referee rests.
 """
 
 from collections.abc import Iterable, Mapping, Sequence
@@ -55,7 +54,7 @@ class LastLook:
 
 
 def last_look(program: Program, obligations: Sequence[Obligation]) -> LastLook:
-    """Find the steps of a program that look at the work of a task with these obligations."""
+    """Find the steps of a program that look at the work of its task. `obligations` are the obligations of this task."""
     proof = prove(program, obligations)
     return LastLook(
         claims={one.finding: tuple(proof.claims[number] for number in one.claims) for one in proof.findings},

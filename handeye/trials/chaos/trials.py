@@ -1,5 +1,5 @@
 """Executes schedules, and checks invariants after each. If a schedule fails, its elements are removed one by one. An
-element without which the schedule does not fail stays in the schedule.
+element is put back if the schedule no longer fails without it.
 """
 
 import tempfile
@@ -42,7 +42,7 @@ def on_disk(carried: ScheduleRun) -> Iterator[str]:
     yield from CheckpointStore(carried.folder / CHECKPOINTS).damaged()
     try:
         if list(effective(read_events(carried.folder / EVENTS))) != carried.runner.events:
-            yield "the event list differs from the events of the run"
+            yield "the events in the event list differ from those of the run"
         msgspec.json.decode((carried.folder / RESULT).read_bytes(), type=Result)
     except (InvalidInput, OSError, msgspec.DecodeError) as fault:
         yield str(fault)
@@ -56,7 +56,7 @@ def in_trace(carried: ScheduleRun) -> Iterator[str]:
         yield str(fault)
         return
     if list(trace.events) != carried.runner.events:
-        yield "the trace differs from the events of the run"
+        yield "the events in the trace differ from those of the run"
     if trace.head.world != carried.runner.setup.world:
         yield "the trace belongs to another world"
 
@@ -65,14 +65,14 @@ def after_resuming(carried: ScheduleRun, unbroken: ScheduleRun) -> Iterator[str]
     """Yield the differences between an interrupted run and the same run without interruptions, one sentence
     each."""
     if carried.runner.events != unbroken.runner.events:
-        yield "the events differ from the events without interruptions"
+        yield "the events differ from those of the uninterrupted run"
     if _bytes(carried.folder) != _bytes(unbroken.folder):
-        yield "the trace differs from the trace without interruptions"
+        yield "the trace differs from that of the uninterrupted run"
     if _plain(carried.runner.history[-1]) != _plain(unbroken.runner.history[-1]):
-        yield "the state differs from the state without interruptions"
+        yield "the last state differs from that of the uninterrupted run"
     if carried.pause != unbroken.pause and carried.pause.kind != unbroken.pause.kind:
         kind = unbroken.pause.kind
-        yield f"the run ended with {carried.pause.kind}; without interruptions, it ended with {kind}"
+        yield f"the run ended with {carried.pause.kind}; the uninterrupted run ended with {kind}"
 
 
 def wrong(findings: Findings, done: int, stages: int, holds_from: Mapping[str, int]) -> Findings:
@@ -100,7 +100,7 @@ def _plain(snapshot: Snapshot) -> bytes:
 
 
 class EndOfStage(StopCondition, frozen=True, kw_only=True):
-    """Pause at the first end of a stage at which the run has done more than `after` steps."""
+    """Pause when a stage ends and the run has done more than `after` steps."""
 
     after: int
 
@@ -125,8 +125,8 @@ class ScheduleResult(Record, frozen=True, kw_only=True):
     ended: str  # The kind of its last pause; `error`: an exception that should never occur
     broken: tuple[Violation, ...]
     unseen: tuple[Violation, ...] = ()
-    """Failed findings that the program could not notice, on a pump that it reported as right. Either a scheduled fault
-    spoiled the pump after the program had last looked at it, or the damage was too small to notice.
+    """The program reported the pump as right, but these findings failed, and the program could not notice this. Either
+    a scheduled fault spoiled the pump after the program had last looked at it, or the damage was too small to notice.
     """
 
     @property
@@ -185,7 +185,7 @@ def _silent(schedule: Schedule, carried: ScheduleRun, start: Checkpoint) -> tupl
     the failures that the program should have noticed. The second list has the failures that faults of the schedule
     caused after the program's last look.
 
-    A completed stage is judged by the findings that must hold at the end of this stage and later. If such a finding
+    A completed stage is judged by the findings that must hold from the end of this stage on. If such a finding
     fails, the run continues, because a later check of the program may notice the failure. The failure is silent only
     if the program ends with a wrong pump.
     """
@@ -232,8 +232,9 @@ def _late(failed: Findings, schedule: Schedule, runner: Runner, start: Checkpoin
 def shrunk(
     failing: ScheduleResult, schedule: Schedule, fails: Callable[[Schedule], ScheduleResult]
 ) -> tuple[Schedule, ScheduleResult]:
-    """Reduce a failing schedule: remove one element at a time if the schedule fails without this element, too. Returns
-    the reduced schedule and its result."""
+    """Reduce a failing schedule. Each element is removed in turn, and put back if the schedule no longer fails without
+    it. Returns the reduced schedule and its result.
+    """
     for fewer in schedule.without():
         tried = fails(fewer)
         if tried.names & failing.names:

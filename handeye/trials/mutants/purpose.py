@@ -1,4 +1,6 @@
-"""Finds the faults for which a check exists: the faults that the call or the error of the check should name."""
+"""Finds the faults that a check of a program should detect. If the check fails, it calls the operator or raises an
+error. The check should detect a fault if the fault's declaration expects this call or error.
+"""
 
 import re
 from collections.abc import Sequence
@@ -19,9 +21,9 @@ def faults_for(
     mutant: Mutant, program: Program, graph: OutcomeGraph, catalogue: Catalogue, most: int
 ) -> list[Fault]:
     """Return faults that the program should notice by the check that a mutant lacks. `most` is the greatest number of
-    faults to return. Faults that can begin at the mutant's stage come first, because their runs are short. Among these
-    faults, and among the others, those with the fewest expected errors and calls come first. Of faults whose names
-    differ only in numbers, only the first is returned.
+    faults to return. Faults that can begin at the mutant's stage come first, because their runs are short. All other
+    faults come last. In each of the two groups, the faults are sorted by their number of expected errors and calls,
+    the smallest number first. Of faults whose names differ only in numbers, only the first is returned.
     """
     calls, stops = calls_of(mutant.steps, program, graph)
     kinds = [
@@ -61,8 +63,9 @@ def calls_of(steps: Sequence[int], program: Program, graph: OutcomeGraph) -> tup
 
 
 def _specific(program: Program, number: int) -> set[int]:
-    """Return the errors that a step exists to raise. These are the errors of its guards. If the step has no guards and
-    only checks or examines, they are all its errors except that of the watchdog. For any other step, the set is empty.
+    """Return the errors that a step is meant to raise. For a step with guards, these are the errors of its guards.
+    For a step that only checks or examines, these are all errors of the step except the error of the watchdog. For any
+    other step, the set is empty.
     """
     operation = program.steps[number].operation
     if operation.guards:

@@ -83,8 +83,8 @@ def _wider(_: Program, step: Step) -> Step | None:
 
 
 def _ignored(program: Program, step: Step) -> Step | None:
-    """Make both branches of a test lead to the target of the better branch: the one that leads neither to the operator
-    nor to a repetition.
+    """Make both branches of a test lead to the same target: the target of the better branch. A branch is bad if it
+    leads to a call to the operator or to a repetition.
     """
     operation = step.operation
     if not isinstance(operation, Test) or operation.raised == step.next:

@@ -1,5 +1,5 @@
 """Tries the mutants of a program. The proof comes first. If the proof does not refuse a mutant, the mutant is run with
-the faults that would be noticed by the check that the mutant lacks.
+the faults that the missing check would notice.
 """
 
 from collections import Counter
@@ -29,10 +29,10 @@ from handeye.trials.sweep import Case, Sweep, TrialRow
 Outcome = Literal["refused", "caught", "unnoticed", "silent", "not run"]
 """The outcome of a mutant.
 
-- refused: the proof names a finding that may fail to hold while the mutant notices nothing
+- refused: the proof names a finding whose failure the mutant may not notice
 - caught: the mutant stopped in at least one run, and was silent in none
 - unnoticed: in all runs, the mutant ran to its end, and the work is right
-- silent: in a run, the work is wrong, but the mutant reported success
+- silent: in at least one run, the work is wrong, but the mutant reported success
 - not run: the proof does not refuse the mutant, and no run tried the mutant. Either we know no fault that the changed
 check is meant to notice, or no runs were requested
 """
@@ -114,7 +114,9 @@ class MutantWork:
         )
 
     def _start(self, mutant: Mutant, world: WorldSpec, fault: Fault) -> Checkpoint:
-        """Return the start of a run of a mutant: if possible, the state of the sound run before the mutant's stage."""
+        """Return the start of a run of a mutant with `fault`. If the fault is present from the start, the run starts
+        at the beginning. If not, the run starts in the state of the sound run before the fault's stage.
+        """
         setup = Setup(plan=self.plan, world=world, camera=self.camera)
         changed = msgspec.structs.replace(self.plan, program=mutant.program)
         if fault.stage is None:

@@ -37,7 +37,7 @@ class SearchPlaces(Record, frozen=True, kw_only=True):
 
 
 class Margin(Record, frozen=True, kw_only=True):
-    """How far a finding was from its limit in the judged trials, in the finding's unit."""
+    """Statistics of the distance between a finding and its limit in the judged trials, in the finding's unit."""
 
     finding: str
     unit: str

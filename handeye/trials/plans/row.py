@@ -23,7 +23,7 @@ class Contact(Record, frozen=True, kw_only=True):
 
 
 class SearchEnd(Record, frozen=True, kw_only=True):
-    """How one search of a trial ended."""
+    """The outcome of one search of a trial."""
 
     at: str  # The position around which the program searched
     places: int  # number of places tried, including the first
@@ -33,8 +33,9 @@ class SearchEnd(Record, frozen=True, kw_only=True):
 def contacts(
     program: Program, events: Sequence[AnyEvent], where: Mapping[str, tuple[str, ...]], *, completed: bool
 ) -> Iterator[Contact]:
-    """Yield the contact operations of a trial, the earliest first. `where` gives, for the name of each operation, the
-    positions at which it takes place."""
+    """Yield the contact operations of a trial, the earliest first. The keys of `where` are the names of the
+    operations, and the values are the positions at which the operations take place.
+    """
     names = {position: name for name, positions in where.items() for position in positions}
     here = ""
     for goal in _goals(program, events):

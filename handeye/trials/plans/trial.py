@@ -62,7 +62,9 @@ class Trial:
 
     @property
     def settings(self) -> dict[str, str]:
-        """Settings of this kind of trial, by name. They determine the trials in addition to what `head` records."""
+        """Settings of this kind of trial, by name. The trials depend on these settings and on the other fields of the
+        head.
+        """
         return {}
 
     def __call__(self, case: Case) -> list[Row]:

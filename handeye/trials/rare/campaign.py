@@ -42,12 +42,12 @@ class LimitingPart(Record, frozen=True, kw_only=True):
 
 
 class Estimated(Record, frozen=True, kw_only=True):
-    """What subset simulation found about one kind of failure."""
+    """The results of subset simulation for one kind of failure."""
 
     failure: FailureKind
     reached: bool
-    """True if worlds with this kind of failure were found. If False, the estimate is the probability of a
-    margin that is at most the threshold of the last level.
+    """True if worlds with this kind of failure were found. If False, the estimate is the probability that a run's
+    margin is at most the threshold of the last level.
     """
     threshold: float
     estimate: Estimate
@@ -169,8 +169,8 @@ def _check(row: RareRow, case: RareCase) -> None:
     """Raise InvalidInput if a row is of another world, or if its run must be repeated."""
     if row.seed != case.seed or row.world not in ("", world_digest(case.world)):
         raise BadFile(
-            f"run {row.trial} of {quoted(row.condition)} is in a different world from the one that this command "
-            "would try"
+            f"run {row.trial} of {quoted(row.condition)} was tried in one world, and this command would try it in "
+            "another"
         )
     if row.to_be_tried_again:
         raise Refused(
@@ -180,7 +180,9 @@ def _check(row: RareRow, case: RareCase) -> None:
 
 
 class _Measured:
-    """Runs the worlds of a level's points, and measures how far each run was from one kind of failure."""
+    """Runs the program in the world of each point of a level, and measures how far each run was from one kind of
+    failure.
+    """
 
     def __init__(self, campaign: Campaign, kind: FailureKind, known: Usual) -> None:
         self._campaign, self._kind, self._usual = campaign, kind, known

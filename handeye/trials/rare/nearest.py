@@ -1,11 +1,11 @@
-"""Finds the worlds in which a program fails and which are nearest to the middle of all quantities. Also finds the
-quantities that make the program fail.
+"""Finds failing worlds: worlds in which a program fails. Among these, it searches for the worlds whose quantities are
+nearest to the middle of their ranges. It also finds the quantities that make the program fail.
 
 A world in which the program fails differs from the middle in every quantity, although only a few quantities matter.
-Therefore the search sets the quantities of a failing world back to the middle of their ranges, first in groups, then
-one by one, as long as the program still fails. This is delta debugging (A. Zeller and R. Hildebrandt, Simplifying and
-isolating failure-inducing input, IEEE Transactions on Software Engineering 28 (2002) 183-200). Then the search reduces
-all remaining deviations together. The noise stays the same.
+Therefore the search sets quantities of a failing world back to the middle of their ranges: first groups of quantities,
+then single quantities. A quantity stays there only if the program still fails. This is delta debugging (A. Zeller and
+R. Hildebrandt, Simplifying and isolating failure-inducing input, IEEE Transactions on Software Engineering 28 (2002)
+183-200). Then the search reduces all remaining deviations together. The noise stays the same.
 """
 
 from collections import deque
@@ -107,8 +107,9 @@ def simplified(numbers: Array, groups: Sequence[Sequence[int]], tries: int) -> G
 
 
 def pushes(campaign: Campaign, kind: FailureKind, found: Sequence[NearWorld]) -> list[Push]:
-    """Return, for each quantity, how far it deviates from its middle value in the failing worlds. The first quantity
-    is the one whose deviation is needed for the failure in the largest number of the nearest worlds.
+    """Return, for each quantity, how far it deviates from its middle value in the failing worlds. The quantities are
+    sorted by the number of nearest worlds in which their deviation is needed for the failure, the largest number
+    first.
     """
     mine = [each for each in campaign.failing if each.kind == kind]
     if not mine:

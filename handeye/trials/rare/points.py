@@ -43,8 +43,8 @@ class WorldSpace:
         return Point(np.array([*found], dtype=float), seed)
 
     def world(self, point: Point) -> WorldSpec:
-        """Return the world of a point. A value that would be beyond a limit of its quantity is set to the limit; this
-        can happen because a user can scale errors to four times their size.
+        """Return the world of a point. If a value would be beyond a limit of its quantity, it is set to the limit.
+        Such values occur if the user scales the errors, by a factor of at most four.
         """
         values = {
             name: self._value(each, float(number))

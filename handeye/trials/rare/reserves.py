@@ -1,4 +1,4 @@
-"""What a program has in reserve while it works: in its searches, in its counted loops and in its checks."""
+"""Records how much reserve a program has left while it works. Searches, counted loops and checks have reserves."""
 
 from typing import Final
 
@@ -21,8 +21,8 @@ class Reserves(Observer):
     and the reserve of a counted loop is the number of rounds left. The reserve of a measurement is its distance (mm)
     from the limit at which the program would have called the operator.
 
-    A check is left out if the next step tests for the error of the check: if such a check fails, the program does not
-    stop, but goes on in a different way.
+    A check is left out if the next step tests for the error of the check. The failure of such a check does not stop
+    the program, which then takes another branch.
     """
 
     def __init__(self, runner: Runner) -> None:

@@ -44,7 +44,7 @@ class RareRow(Row, frozen=True, kw_only=True):
 
     @property
     def failure(self) -> FailureKind | None:
-        """How the program failed; None if it did not. A run that was broken off counts as stopped."""
+        """The kind of failure; None if the program did not fail. A run that was broken off counts as stopped."""
         return {"silent": "silent", "assembled": None}.get(self.verdict, "stopped")
 
 
@@ -93,7 +93,7 @@ class Usual:
 
 def usual(rows: Sequence[RareRow]) -> Usual:
     """Return the reserves that the runs of a first level usually have left. A reserve is omitted if at least half of
-    the runs have nothing left of it: such a reserve does not show how close a run was to failing.
+    the runs have nothing left of it. Such a reserve does not show how close a run was to failing.
     """
     judged = [limits_left(row.result.referee) for row in rows if row.result is not None]
     return Usual(program=_medians([row.left for row in rows]), referee=_medians(judged))

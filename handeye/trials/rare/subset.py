@@ -1,9 +1,10 @@
 """Subset simulation: estimates the probability of a rare failure as a product of probabilities that are not rare.
 
 Source: S.-K. Au and J. L. Beck, Estimation of small failure probabilities in high dimensions by subset simulation,
-Probabilistic Engineering Mechanics 16 (2001) 263-277. The proposal, and the rule for its step, are those of
-I. Papaioannou, W. Betz, K. Zwirglmaier and D. Straub, MCMC algorithms for subset simulation, Probabilistic
-Engineering Mechanics 41 (2015) 89-103; other fields call this proposal preconditioned Crank-Nicolson.
+Probabilistic Engineering Mechanics 16 (2001) 263-277. The Markov chains propose new worlds. The form of the proposals,
+and the rule for their step, are from I. Papaioannou, W. Betz, K. Zwirglmaier and D. Straub, MCMC algorithms for subset
+simulation, Probabilistic Engineering Mechanics 41 (2015) 89-103; in other fields of science, this form is called
+preconditioned Crank-Nicolson.
 """
 
 import math
@@ -26,7 +27,7 @@ Papaioannou and others.
 FIRST_STEP: Final = 0.6  # Papaioannou and others
 SMALLEST_STEP: Final = 0.02
 REDRAWN: Final = 0.5
-"""Probability with which a candidate has new noise. The other candidates keep the noise of the state from which they
+"""Probability with which a candidate has new noise. The other candidates keep the noise of the point from which they
 were made. If every candidate had new noise, each step would lose the failures that occur only with a rare noise. The
 value is our choice.
 """
@@ -34,8 +35,8 @@ NORMAL_95: Final = 1.96  # standard deviations
 FAILED: Final = 0.0  # a run whose margin is not above this has failed
 
 Margins = Callable[[int, Sequence[Point]], Sequence[float]]
-"""Function that takes the number of a level and points of this level, and runs the world of each point. The function
-returns the margin of each run.
+"""Function that executes a run in the world of each point. The function takes the number of a level and the points of
+this level, and returns the margin of each run.
 """
 
 
@@ -80,8 +81,8 @@ def subset_simulation(
     stream: Callable[[int], np.random.Generator],
     most: int,
 ) -> Iterator[Level]:
-    """Yield one level after the other, until the failure is reached, no level is left, or the number of levels reaches
-    `most`.
+    """Yield one level after the other, at most `most` levels. The last level comes earlier if its threshold is the
+    failure itself, or if all its worlds have the same margin.
 
     Args:
         first: worlds drawn independently; each further level has as many worlds.
@@ -127,7 +128,7 @@ class _Walk:
         self._runs = self._accepted = 0
 
     def chains(self, length: int) -> list[_Chain]:
-        """Return the chains of the next level. The sum of their numbers of states is `length`. In each round, every
+        """Return the chains of the next level. Together, these chains have `length` states. In each round, every
         chain that is not yet complete advances by one state.
         """
         least, more = divmod(length, len(self._seeds))

@@ -1,4 +1,4 @@
-"""The table of the functions that execute the commands of ML, by the code of the command."""
+"""The table of the functions that execute the commands of ML. The key of a function is the code of its command."""
 
 from collections.abc import Callable
 from typing import Final

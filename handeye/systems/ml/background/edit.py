@@ -40,7 +40,9 @@ def query(mos: "Interpreter", table: int, *place: int) -> None:
 
 
 def show(name: str, mos: "Interpreter", line: int | None = None, word: int | None = None) -> None:
-    """Print one word of a table, one line with the names of its words, or every line that has a word other than 0."""
+    """Print one word of a table, one line of the table with the names of its words, or all lines in which any word is
+    not 0.
+    """
     shape, read = mos.level.shapes[name], mos.level.read
     if line is not None and word is not None:
         mos.print(str(read(name, line, word)))

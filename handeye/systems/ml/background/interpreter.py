@@ -1,5 +1,5 @@
-"""The interpreter of ML: it executes the typed and the stored statements of one arm. A statement that must wait
-records in the memory what it waits for; the caller then lets cycles pass until `ready` returns True.
+"""The interpreter of ML: it executes the typed and the stored statements of one arm. If a statement must wait, the
+memory records the condition. The caller then lets cycles pass until `ready` returns True.
 """
 
 from collections.abc import Callable, Mapping
@@ -50,13 +50,13 @@ class Interpreter:
 
     @property
     def level(self) -> Level:
-        """The real-time level to which commands refer."""
+        """The real-time level of the arm that the program now commands."""
         return self.levels[self.memory.side]
 
     @property
     def _emergency(self) -> str:
-        """The emergency that has stopped the program's own arm or the arm that the program now commands; empty if
-        neither was stopped.
+        """The emergency that has stopped the arm that the program now commands, or the program's own arm. The string
+        is empty if neither arm was stopped.
         """
         return self.level.stopped or self._own.stopped
 
@@ -74,8 +74,8 @@ class Interpreter:
     # -- execution ------------------------------------------------------------------------------------
 
     def run(self, first: int | None = None) -> None:
-        """Start the stored program at a statement, or at its first statement. Raises MlError if there is no such
-        statement (M07), or if an emergency has stopped the arm (M14).
+        """Start the stored program at a statement, or at its first statement. Raises MlError if the program has no
+        statement with this number (M07), or if an emergency has stopped the arm (M14).
         """
         if why := self._emergency:
             raise MlError("M14", f"an emergency has stopped the arm: {why}; ENABLE the arm first")
@@ -111,8 +111,8 @@ class Interpreter:
         return bool(self.memory.stopped)
 
     def ready(self) -> bool:
-        """End the wait of a statement if its condition is met. Returns True if no statement waits any longer. In an
-        emergency, stops the program.
+        """If a statement waits for a condition that is now met, end the wait. Returns True if no statement waits any
+        longer. In an emergency, stops the program.
         """
         memory, level = self.memory, self.level
         if self.running and self.check():
@@ -168,8 +168,8 @@ class Interpreter:
             raise
 
     def file(self, text: str) -> None:
-        """Execute a typed FILE while another statement is being executed. If MlError or BadArgument is raised, nothing
-        has changed.
+        """Execute a typed command FILE while another statement is being executed. If MlError or BadArgument is raised,
+        nothing has changed.
         """
         line = statement_of(text)
         if line is None or line.number is not None or line.statement.code != "FILE":
@@ -230,8 +230,8 @@ class Interpreter:
         self._tell(Printed(time=self.time, text=text))
 
     def go(self, number: int) -> None:
-        """Continue at a statement. A typed branch starts the program at that statement. Raises MlError (M07) if there
-        is no such statement.
+        """Continue at a statement. A typed branch starts the program at that statement. Raises MlError (M07) if the
+        program has no statement with this number.
         """
         self.program.statement(number)
         if self.memory.executing:
@@ -243,11 +243,11 @@ class Interpreter:
         self.memory.waits, self.memory.until = "until", cycle
 
     def variable(self, number: int) -> int:
-        """Return the value of a variable. Raises MlError (M05) if there is no such variable."""
+        """Return the value of a variable. Raises MlError (M05) if no variable has this number."""
         return self.level.read("VR", _variable(number), 1)
 
     def set_variable(self, number: int, value: int) -> None:
-        """Set a variable. Raises MlError (M05) if there is no such variable."""
+        """Set a variable. Raises MlError (M05) if no variable has this number."""
         self.level.write("VR", _variable(number), 1, value)
 
     def register(self, line: int, word: int) -> int:

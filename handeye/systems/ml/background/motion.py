@@ -41,7 +41,9 @@ def distances(mos: "Interpreter", values: Mapping[int, int]) -> dict[int, int]:
 
 
 def positions(mos: "Interpreter", values: tuple[int, ...]) -> dict[int, int]:
-    """Return the goals of the motors from motor 1 on. A 0 for an absent motor is ignored."""
+    """Return the goals of the motors. The values begin with the goal of motor 1. If a motor is absent, its value 0 is
+    ignored.
+    """
     motors = mos.level.motors
     return {motor: value for motor, value in enumerate(values, 1) if value or motor in motors}
 
@@ -90,8 +92,8 @@ def go_mean(mos: "Interpreter", one: int, other: int) -> None:
 
 
 def go_line(mos: "Interpreter", one: int, other: int) -> None:
-    """Move all motors to a place on the straight line through two POINTs. In the space of all motors, this place is
-    the point of the line that is nearest to the present goals. Half a unit is rounded up.
+    """Move all motors to a place on the straight line through two POINTs. Of all points of the line, this place is the
+    nearest to the present goals, in the space of all motors. Half a unit is rounded up.
     """
     level, a, b = mos.level, mos.program.point(one), mos.program.point(other)
     goals = [level.goal(motor) if motor in level.motors else 0 for motor in range(1, MOTORS + 1)]

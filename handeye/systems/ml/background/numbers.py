@@ -1,4 +1,4 @@
-"""The arithmetic commands: variables, comparisons, indicators, and access to tables."""
+"""The arithmetic commands. They compute with variables, compare values, set indicators, and read and write tables."""
 
 from collections.abc import Callable
 from operator import eq, ge, gt, le, lt, ne

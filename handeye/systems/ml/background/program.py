@@ -76,7 +76,7 @@ class StoredProgram:
         return self.numbers[bisect_left(self.numbers, first) : bisect_right(self.numbers, last)]
 
     def statement(self, number: int) -> Statement:
-        """Return a statement. Raises MlError (M07) if there is no such statement."""
+        """Return a statement. Raises MlError (M07) if no statement has this number."""
         text = self.memory.statements.get(number)
         if text is None:
             raise MlError("M07", f"there is no statement {number}")
@@ -88,7 +88,7 @@ class StoredProgram:
         return self.numbers[at] if at < len(self.numbers) else 0
 
     def listing(self, first: int = 1, last: int = 5000) -> list[str]:
-        """Return the lines of a listing, which can be read back."""
+        """Return the lines of a listing. The program can be read back from these lines."""
         return [self._line(number) for number in self.between(first, last)]
 
     def _line(self, number: int) -> str:
@@ -99,13 +99,13 @@ class StoredProgram:
     # -- points ---------------------------------------------------------------------------------------
 
     def fill(self, number: int, positions: Point) -> None:
-        """Give positions to a POINT. Raises MlError (M08) if there is no such POINT."""
+        """Give positions to a POINT. Raises MlError (M08) if no POINT has this number."""
         self.check_point(number)
         self.memory.points[number] = positions
         self._use(number)
 
     def point(self, number: int) -> Point:
-        """Return the positions of a POINT. Raises MlError (M08) if there is no such POINT, or if the POINT was never
+        """Return the positions of a POINT. Raises MlError (M08) if no POINT has this number, or if the POINT was never
         filled.
         """
         self.check_point(number)
@@ -115,7 +115,7 @@ class StoredProgram:
         return self.memory.points[number]
 
     def check_point(self, number: int) -> None:
-        """Raise MlError (M08) unless a statement is a POINT."""
+        """Raise MlError (M08) if the statement with this number is not a POINT."""
         if self.memory.statements.get(number) != "POINT":
             raise MlError("M08", f"there is no POINT {number}")
 

@@ -46,8 +46,8 @@ class _ReadOnly:
 
 
 class TaskTable:
-    """The table TK: each line has the number of a statement's command, the 15 parameters of the statement, and four
-    words that say in which form the parameters are written. The line of a POINT has the number of the command and the
+    """The table TK: the lines of statements. Each line has the number of the command, the 15 parameters, and four
+    words for the form in which the parameters are written. The line of a POINT has the number of the command and the
     positions of 12 motors. A line without a statement has zeros.
     """
 
@@ -70,7 +70,7 @@ class TaskTable:
         return wrap(sum(form << 4 * at for at, form in enumerate(forms)))
 
     def write(self, line: int, word: int, value: int) -> None:
-        """Change a parameter that is a constant, or a position of a filled POINT."""
+        """Change one position of a filled POINT, or one constant parameter of another statement."""
         memory = self._program.memory
         if line in memory.points and 1 <= word - 1 <= MOTORS:
             point = [*memory.points[line]]
@@ -156,8 +156,8 @@ class SessionLog(_ReadOnly):
 
 
 class HostLink(_ReadOnly):
-    """The table HL: whether there is a session with the host, how many commands were sent to the host, and how many
-    programs were read from it.
+    """The table HL. Its words say whether there is a session with the host, how many commands went to the host, and
+    how many programs were read from it.
     """
 
     def __init__(self, mos: "Interpreter") -> None:

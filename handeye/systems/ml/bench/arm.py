@@ -187,7 +187,7 @@ class RectilinearArm(Axes, Mechanism[ArmState]):
         return np.asarray(self._bends * np.sin(2 * np.pi * q / _WAVE + self._phases) + self._offsets)
 
     def _offset(self, slide: int) -> None:
-        """Choose the error of a slide for its present motion at random."""
+        """Draw the random error that a slide has during its present motion."""
         name = f"repeatability.{_SLIDE_NAMES[slide]}.{self._motions[slide]}"
         self._offsets[_SLIDES][slide] = self._width * self._world.numbers(name).uniform(-0.5, 0.5)
 

@@ -48,7 +48,7 @@ def arm_fault(name: str, *calls: str, harmless: str = "") -> FaultKind:
 
     Args:
         calls: the messages that name the fault. If the fault is in a motor or a potentiometer, this function adds the
-            message that the motor does not reach its goal.
+            message "motor ... does not reach its goal".
         harmless: why the work can succeed despite the fault; empty if the program must notice the fault.
     """
     kind, axis, what = [*name.split("."), "", ""][:3]

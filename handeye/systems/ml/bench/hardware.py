@@ -1,4 +1,6 @@
-"""A station as the hardware of a run, and the task of a program that moves the arm over an empty table."""
+"""The hardware of a run whose arm is simulated at a station, and the task of a program that moves the arm over an
+empty table.
+"""
 
 from __future__ import annotations
 

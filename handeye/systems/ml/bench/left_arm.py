@@ -1,5 +1,5 @@
-"""The left arm: a Purbrick arm beside the rectilinear arm, with a platter of its own. The joints have the same signs
-as the joints of the right arm: z points down, and y away from the base.
+"""The left arm: a Purbrick arm beside the rectilinear arm, with a platter of its own. The positive directions of its
+joints are those of the right arm: z points down, and y points away from the base.
 """
 
 from dataclasses import replace

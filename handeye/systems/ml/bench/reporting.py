@@ -33,15 +33,15 @@ class Printed(Record, frozen=True, kw_only=True):
 
 
 def counted(heard: object) -> int:
-    """Return the count in the last printed line, `0 COUNT`; 0 if the line has another form."""
+    """Return the count in the last printed line. If this line does not have the form `0 COUNT`, return 0."""
     assert isinstance(heard, Printed)
     words = heard.lines[-1].split() if heard.lines else []
     return int(words[1]) if len(words) == 2 and words[0] == "0" else 0
 
 
 def calls_of(troubles: Mapping[str, str]) -> tuple[str, ...]:
-    """For each trouble, return the program's message as it is quoted in declarations of faults: the sentence for
-    the trouble, followed by `({count})`.
+    """Return one message for each trouble: the sentence for the trouble, followed by `({count})`. The declarations of
+    faults quote these messages.
     """
     return tuple(f"{sentence} ({{count}})" for sentence in troubles.values())
 

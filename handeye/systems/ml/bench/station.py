@@ -56,7 +56,7 @@ class Station:
         others: Sequence[Mechanism[Any]] = (),
         left: bool = False,
     ) -> None:
-        """Put the arm in a scene. Its pump is off.
+        """Put the arm in a scene. The arm's pump is off.
 
         Args:
             at: a dictionary from the numbers of motors to the positions at which they begin (ML units). All other

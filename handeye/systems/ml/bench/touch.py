@@ -62,8 +62,8 @@ class Touch(Record, frozen=True, kw_only=True):
 
     @property
     def bound(self) -> float:
-        """How far (mm) the slide can move on after the contact, to within a few per cent. The distance has three
-        parts. The slide moves until the force on the fingers reaches the limit. It moves on for one period, and then
+        """The greatest distance (mm) that the slide can move after the contact, to within a few per cent. The slide
+        first moves until the force on the fingers reaches the limit. After that it moves for one more period, and then
         for the time by which the servo lags behind its set-point.
         """
         lag = 2 * _DAMPING / (2 * pi * self.bandwidth)
@@ -71,7 +71,7 @@ class Touch(Record, frozen=True, kw_only=True):
 
     @property
     def trips(self) -> bool:
-        """True if the start of the motion, in the air, would trip a guard that was set before the motion."""
+        """True if the jolt at the start of the motion would trip a guard that had been set before."""
         return self.jolt > self.limit * GRAM_FORCE
 
 
@@ -96,7 +96,7 @@ def touch(
     shows that a gauge is beyond its limit, the present position becomes the goal.
 
     The guard is set only when the jolt at the start of the motion has died away, so that only the block can trip the
-    guard. `Touch.trips` says whether a guard that was set before the start would have tripped in the air.
+    guard. `Touch.trips` says whether the jolt would trip the guard in the air if the guard were set before the start.
 
     Raises:
         BadArgument: a value is out of range.

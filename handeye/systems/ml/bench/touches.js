@@ -83,7 +83,7 @@
     const at = chosen(), one = touch(...at), period = data.period[at[0]];
     NAMES.forEach((name, n) => { byId(`${name}-shown`).textContent = data[name][at[n]]; });
     const noticed = one.noticed === null ? "The limit is never noticed." : `The limit is noticed ${one.noticed.toFixed(1)} ms after the contact.`;
-    const air = one.trips ? ` When the motion starts, a jolt of ${one.jolt.toFixed(1)} N acts on a finger. A guard that is set at that time trips before any contact.` : "";
+    const air = one.trips ? ` When the motion starts, a jolt of ${one.jolt.toFixed(1)} N acts on a finger. If the guard were set at the start of the motion, this jolt would trip the guard in the air.` : "";
     byId("said").textContent = `${noticed} After the contact, the slide moves on by ${one.way.toFixed(2)} mm, and the fingers press with up to ${one.force.toFixed(1)} N.${air}`;
     course("place", one.places, one, period, one.goals);
     course("force", one.forces, one, period);

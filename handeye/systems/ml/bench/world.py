@@ -1,4 +1,6 @@
-"""The worlds of the rectilinear arm: errors of its slides, wand, strain gauges and range finder, drawn from a seed."""
+"""The worlds of the rectilinear arm. The seed of a world determines the errors of the slides, the wand, the strain
+gauges and the range finder.
+"""
 
 from dataclasses import dataclass
 from typing import Final
@@ -123,8 +125,8 @@ ALONE: Final = Variation(*ARM)
 
 @dataclass(frozen=True, slots=True)
 class ArmWorld:
-    """A world of the arm and of a job. A world without a specification has no errors. Each number is drawn from a
-    random stream of its own, which is selected by the number's name.
+    """A world of the arm and of a job. A world without a specification has no errors. Each number has its own random
+    stream, and the number's name selects this stream.
     """
 
     spec: WorldSpec | None = None

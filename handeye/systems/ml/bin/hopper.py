@@ -1,4 +1,4 @@
-"""A smooth hopper with a flat middle, from which bars are taken, and two boxes beside it."""
+"""The bin is a smooth hopper with a flat middle. The hand takes bars out of it and puts them into two boxes."""
 
 from collections.abc import Sequence
 from itertools import product
@@ -30,7 +30,7 @@ THICK: Final = (
 PADS: Final = [0.999, 0.999, 0.0005, 0.5, 2.0]
 """Impedance of the contacts of fingers that hold light parts firmly.
 
-In MuJoCo, a contact that only friction holds creeps. With the arm's usual impedance of .95 to .99, a part turns if the
+In MuJoCo, a contact creeps if only friction holds it. With the arm's usual impedance of .95 to .99, a part turns if the
 fingers hold it aslant. If a freeze then stops the fingers, they lose a quarter to a third of their force each half
 second. With the impedance given here, they lose only 1 percent of their force. With this impedance, however, the
 fingers shake out a part of .5 kg. With an impedance of .9999, they shake out even a part of 26 g.

@@ -87,7 +87,7 @@ class Poured(Record, frozen=True, kw_only=True):
 
 
 class Pile(Mechanism[Poured]):
-    """Remembers the true qualities of the parts that were poured into the bin. Only the referee sees them."""
+    """Remembers the true qualities of the parts that were poured into the bin. Only the referee sees the qualities."""
 
     name, kind = POURED, Poured
 
@@ -231,7 +231,7 @@ def _quality(world: ArmWorld, number: int) -> Quality:
 
 
 def _inside(places: Array, x: float, half: tuple[float, float]) -> NDArray[np.bool_]:
-    """Return, for each place, whether it is inside the rectangle whose middle is at (x, 0), and whose half sides are
+    """Return True for each place inside a rectangle. The middle of the rectangle is at (x, 0), and its half sides are
     `half`.
     """
     return np.asarray((np.abs(places[:, :2] - [x, 0.0]) < half).all(axis=1), dtype=np.bool_)

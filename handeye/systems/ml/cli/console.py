@@ -29,7 +29,9 @@ _JOYSTICK: Final = (
 
 
 class FileHost(Host):
-    """A host that keeps programs in files of the current folder, and offers the arm language of 1973."""
+    """A host that keeps programs in files of the current folder, and can start the interpreter of the arm language of
+    1973.
+    """
 
     def read(self, name: str) -> str:
         return read_source(_path(name)).text

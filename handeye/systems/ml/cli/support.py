@@ -65,9 +65,10 @@ def typewriter(
 ) -> int:
     """Take a bar out of a bin, orient it, put it into the frame of the rail support, and assemble the support.
 
-    `plans/typewriter.sym` does in one program what `bin`, `orient` and `support` do: it takes bars out of the bin
-    until one is neither too narrow nor too light, learns the bar's attitude and place by touch, and puts the bar into
-    the frame. Then it continues with the statements of `plans/support.sym`. A referee checks the 22 parts and the bar.
+    `plans/typewriter.sym` does in one program what `bin`, `orient` and `support` do. It takes bars out of the bin
+    until one is neither too narrow nor too light. It learns the bar's attitude and place by touch, and puts the bar
+    into the frame. Then it continues with the statements of `plans/support.sym`. A referee checks the 22 parts and the
+    bar.
 
     Exit code 0: right; 1: the program has stopped before its end; 3: it has ended, but the referee disagrees; 2: bad
     input; 130: interrupted.

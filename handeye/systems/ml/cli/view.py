@@ -30,10 +30,10 @@ def view(
 ) -> int:
     """Step through a run in the browser, and see all tables of its machine while the run goes on.
 
-    In the tables, each word that changed in the cycle is highlighted. You can look back at any earlier cycle. A value
-    that you write into a word takes effect in the next cycle, even while the arm moves: `MT 3 4` is the goal of motor
-    3, `MT 2 8` the speed of motor 2, and `ST 7 9` a limit of sensor 7. The run records each word that you write, so a
-    repetition of the run writes the word again.
+    In the tables, each word that changed in the cycle shown is highlighted. You can look back at any earlier cycle. A
+    value that you write into a word takes effect in the next cycle, even while the arm moves: `MT 3 4` is the goal of
+    motor 3, `MT 2 8` the speed of motor 2, and `ST 7 9` a limit of sensor 7. The run records each word that you write,
+    so a repetition of the run writes the word again.
 
     Prints the address to open, which contains a secret and works only on this computer.
 

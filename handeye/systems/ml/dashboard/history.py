@@ -65,13 +65,13 @@ class History:
 
     @property
     def last(self) -> int:
-        """The number of the cycle that comes next. The changes that statements have made since the previous cycle
-        belong to this next cycle.
+        """The number of the last cycle in the history. This cycle is not complete: it has only the changes that
+        statements have made since the cycle before it.
         """
         return self.head.cycles
 
     def find(self, table: str, side: str = "") -> Segment:
-        """Return a table of an arm. Raises BadFile if the machine has no such table."""
+        """Return a table of an arm. Raises BadFile if the arm has no table with this name."""
         for segment in self.segments:
             if segment.table == table and segment.side in ("", side or self.head.sides[0]):
                 return segment
@@ -88,8 +88,8 @@ class History:
         return course is not None and course.changed(cycle)
 
     def used(self, segment: Segment) -> list[int]:
-        """Return the lines of a table that are connected to a device, and the lines that change. If no line of the
-        table is connected to a device, return all lines that are not always 0.
+        """Return those lines of a table that are connected to a device or that change. If no line of the table is
+        connected to a device, return each line that has a word other than 0 in any cycle.
         """
         labels = line_labels(segment.side, segment.table)
         return sorted(
@@ -124,9 +124,9 @@ def packed(done: History) -> bytes:
     """Return a history as a compressed file.
 
     The file begins with the length of the head and the head itself, in JSON. Then the file has four kinds of numbers
-    for each word: how many words without a course were skipped before this word, how often this word changes, how many
-    cycles pass from each change to the next, and by how much each change increases the value. Integers are written
-    with seven bits in each byte, the lowest bits first.
+    for each word. The first number says how many words without a course were skipped before this word, and the second
+    how often this word changes. The others give the cycles from each change to the next, and the increase of the value
+    at each change. Integers are written with seven bits in each byte, the lowest bits first.
     """
     head = msgspec.json.encode(done.head)
     stream = bytearray(_integers([len(head)]) + head)

@@ -33,8 +33,8 @@ class Segment(NamedTuple):
         return self.base + (line - 1) * self.shape.words + word - 1
 
     def line_word(self, number: int) -> tuple[int, int]:
-        """Return the position of the word that has the number `number`: its line, and its place in the line. Lines and
-        words count from 1.
+        """Return the position of a word: its line, and its place in the line. `number` is the number of the word.
+        Lines and words count from 1.
         """
         line, word = divmod(number - self.base, self.shape.words)
         return line + 1, word + 1
@@ -51,7 +51,9 @@ class Segment(NamedTuple):
 
 
 def segments(sides: Sequence[Side]) -> list[Segment]:
-    """Return all tables of a machine that has the arms `sides`, in the order of the numbers of their words."""
+    """Return all tables of a machine that has the arms `sides`. The table whose words have the lowest numbers comes
+    first.
+    """
     found: list[Segment] = []
     base = 0
     for side in sides:

@@ -1,4 +1,4 @@
-"""Builds the part of a page that shows the tables of a machine by cycle."""
+"""Builds the part of a page that shows the tables of a machine at any cycle."""
 
 from pathlib import Path
 from typing import Any, Final
@@ -123,5 +123,5 @@ def _moving(done: History) -> int:
 
 
 def own_file(name: str) -> str:
-    """Return the content of a file of this folder, which is copied into pages unchanged."""
+    """Return the content of a file in this folder. Pages contain this content unchanged."""
     return Path(__file__).with_name(name).read_text(encoding="utf-8")

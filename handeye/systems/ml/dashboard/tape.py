@@ -304,7 +304,9 @@ class _Viewed(_Source):
 
 
 def _views(mos: Interpreter, program: StoredProgram) -> dict[str, tuple[View, Callable[[], object]]]:
-    """Return the tables of the background level, each with a function whose value changes when the table changes."""
+    """Return the tables of the background level, and a function for each table. When the table changes, the value of
+    its function changes.
+    """
     memory, points = mos.memory, program.memory
     return {
         "PT": (RecentPoints(program), lambda: ([*points.recent], dict(points.points))),

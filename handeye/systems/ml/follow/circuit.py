@@ -58,14 +58,14 @@ class Felt(Record, frozen=True, kw_only=True):
 
     @property
     def lost(self) -> bool:
-        """True if the follower has touched nothing for too long, touches something everywhere, or needs too many
-        statements to close its circuit.
+        """True if the follower has touched nothing for too long, signals a touch wherever the wand goes, or needs too
+        many statements to close its circuit.
         """
         return bool(self._lost)
 
     @property
     def _lost(self) -> str:
-        """Why the follower is lost; empty if it is not."""
+        """The reason why the follower is lost. The string is empty if the follower is not lost."""
         if not self.touches and self.statements >= ALONE:
             return NOTHING
         if self.turns <= -2 * ROUND:

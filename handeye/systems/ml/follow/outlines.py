@@ -26,7 +26,7 @@ class Rectangle(NamedTuple):
 
 
 class Outline(NamedTuple):
-    """A plate, in units of the slides x and y. The origin is the place at which the slides are at 0."""
+    """A plate. Lengths are in units of the slides x and y, and the slides are at 0 at the origin."""
 
     corners: tuple[tuple[float, float], ...]  # x, y of a polygon, in order around it
     parts: tuple[Rectangle, ...]  # rectangles of which the plate consists; none: the plate is a disc
@@ -103,9 +103,8 @@ def lay(
 
 
 def placed(points: Array, R: Array, centre: Array) -> Array:
-    """Return the places on the table, in units of the slides, at which the points `points` of a plate lie, shape (n,
-    2). The plate has the true rotation `R`, shape (3, 3), and the plate's middle is at `centre` (m, shape (3,)) in the
-    scene.
+    """Return where the points `points` of a plate lie on the table, shape (n, 2), in units of the slides. The plate
+    has the true rotation `R`, shape (3, 3), and the plate's middle is at `centre` (m, shape (3,)) in the scene.
     """
     flat = np.array([[1.0, 0.0], [0.0, -1.0]])  # from coordinates of the slides to those of the scene
     lying = points * LINEAR @ flat @ R[:2, :2].T + centre[:2] - [CENTRE, 0.0]

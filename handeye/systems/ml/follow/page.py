@@ -120,8 +120,8 @@ def _plan(true: Array, touches: Array) -> Iterator[Markup]:
 
 
 def _outwards(at: Array, true: Array) -> Array:
-    """Return the offset from a touch to the place where the touch's number is drawn, in units of the drawing. The
-    offset points away from the plate.
+    """Return the offset (in units of the drawing) from a touch to its number in the drawing. The offset points away
+    from the plate.
     """
     slope = [distance(at + step, true) - distance(at - step, true) for step in np.eye(2) * _FAR]
     return 11 * np.array(slope) / max(hypot(*slope), 1.0)

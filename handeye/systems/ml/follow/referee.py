@@ -13,10 +13,10 @@ from handeye.systems.ml.machine.spec import LINEAR
 
 RADIUS: Final = 0.8  # mm: radius of the wand
 FELT: Final = 3.3
-"""Greatest distance (mm) of the wand from the outline when a touch is noticed. This distance is the sum of four terms:
-a slide moves by up to 2.1 mm in a cycle; the wand signals when it is bent by .1 mm; a position is wrong by up to .3
-mm; and when a slide starts suddenly with the speed v, its finger lags behind by up to v sqrt(m / k), which is .8 mm (m
-and k are the mass and the stiffness of the finger).
+"""Greatest distance (mm) of the wand from the outline when a touch is noticed. This distance is the sum of four terms.
+A slide moves by up to 2.1 mm in a cycle. The wand signals when it is bent by .1 mm. A position is wrong by up to .3
+mm. When a slide starts suddenly with the speed v, its finger lags behind by up to v sqrt(m / k), which is .8 mm; m and
+k are the mass and the stiffness of the finger.
 """
 FOUND: Final = 38.1  # mm (1.5 steps): greatest distance from a place on the outline to the nearest touch
 UNMOVED: Final = 0.1  # mm

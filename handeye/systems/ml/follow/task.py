@@ -213,7 +213,7 @@ class Follow(ArmTask):
 
 
 def outline_of(plan: MlPlan) -> OutlineName:
-    """Return the outline that a plan names. Raises NoSuchName if there is no such outline."""
+    """Return the outline that a plan names. Raises NoSuchName if no outline has this name."""
     for name in OUTLINES:
         if name == plan.variant:
             return name

@@ -33,7 +33,7 @@ _WORD: Final = re.compile(r"(?P<marks>(?:-[ \t]*)?(?:&[ \t]*)*)(?P<name>[A-Z][A-
 
 
 class _Row(NamedTuple):
-    """A row of the text that becomes a statement."""
+    """A row of the text. The row becomes one statement."""
 
     number: int
     text: str
@@ -54,8 +54,8 @@ def decks(files: Sequence[Path]) -> Source:
 
 
 def assembled(source: Source) -> tuple[str, list[Diagnostic]]:
-    """Assemble a symbolic program with the texts that follow it. Returns the program in ML, and the mistakes of the
-    symbolic texts.
+    """Assemble a symbolic program from all its texts. Returns the program in ML, and the mistakes in the symbolic
+    texts.
     """
     assembler = _Assembler()
     for part in source.texts:
@@ -170,6 +170,6 @@ class _Assembler:
 
 
 def _span(row: _Row, start: int, end: int) -> Span:
-    """Return the place of a part of a row, without the blanks before it."""
+    """Return the place of a part of a row. Blanks at the beginning of the part are left out."""
     begin = end - len(row.text[start:end].lstrip())
     return Span(start=row.start + begin, end=row.start + end)

@@ -22,7 +22,7 @@ _ARMS: Final[dict[Side, ArmSpec]] = {"right": RIGHT, "left": LEFT}
 _CHOICES: Final[dict[str, Side]] = {"RIGHT": "right", "LEFT": "left"}
 _PAIRS: Final = {"NEXTI": "LOOPI", "NEXTJ": "LOOPJ", "RETURN": "GOSUB"}
 _AT_POINTS: Final = {"DEFPOINT": 1, "GOPOINT": 1, "JOY": 1, "GOLINE": 2, "GOMEAN": 2}
-"""How many parameters of a command, from the first, give the statement number of a POINT."""
+"""For each command, the number of its first parameters that are statement numbers of POINTs."""
 
 
 def checked(
@@ -64,7 +64,7 @@ def checked(
 
 
 class _Check:
-    """Checks the lines of a program one by one. A check may use the other lines of the program, too."""
+    """Checks the lines of a program one by one. A check may also use the other lines of the program."""
 
     def __init__(self, lines: Mapping[int, Line], starts: list[tuple[int, Side]]) -> None:
         self._lines = lines
@@ -102,8 +102,8 @@ class _Check:
                 yield mistake("limits-empty", told, line.place(1))
 
     def motors(self, line: Line) -> Iterator[Diagnostic]:
-        """Check the motors and the constant goals of a line. If either arm may execute the line, the line has a
-        mistake only if it suits neither arm.
+        """Check the motors and the constant goals of a line. A line that both arms may execute has a mistake only if
+        neither arm can execute it.
         """
         sides = self._sides.get(line.number or 0) or _ARMS
         mistakes = [list(_motors(line, _ARMS[side])) for side in _ARMS if side in sides]
@@ -144,9 +144,7 @@ class _Check:
         )
 
     def pairs(self, line: Line) -> Iterator[Diagnostic]:
-        """Check that each end of a loop or subroutine has a statement that begins the loop or subroutine, and that
-        each loop has an end.
-        """
+        """Check that each end of a loop or a subroutine has a beginning, and that each loop has an end."""
         code = line.statement.code
         if code in _PAIRS and _PAIRS[code] not in self._codes:
             yield mistake("M13", f"{code} has no {_PAIRS[code]} in this program", line.spans[0])

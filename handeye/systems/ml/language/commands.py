@@ -255,7 +255,7 @@ TABLE_NAMES: Final = {word_of(name): name for name in SHAPES}
 
 
 def explained(word: str) -> str | None:
-    """Return the help of a command, or None if there is no such command."""
+    """Return the help of the command called `word`, or None if no command has this name."""
     command = COMMANDS.get(word.upper())
     if command is None:
         return None

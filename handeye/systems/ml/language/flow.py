@@ -78,7 +78,7 @@ class Flow:
 
 
 def targets(statement: Statement) -> tuple[Parameter, ...]:
-    """Return the parameters of a statement that say where the program continues."""
+    """Return the parameters with which a statement says where the program continues."""
     if statement.code not in JUMPS | {"BRCOMP", "BROVFL", "RUN", "TRY"}:
         return ()
     command = COMMANDS[statement.code]

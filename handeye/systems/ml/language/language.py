@@ -32,8 +32,8 @@ class MlLanguage(OwnLanguage):
         return code_explained(word) or explained(word)
 
     def words(self, source: Source, offset: int) -> list[tuple[str, str]]:
-        """Return completions: after a sequence number, the commands; after a command, what its next parameter may
-        be.
+        """Return completions. After a sequence number, these are the commands; after a command, these are the values
+        that its next parameter may have.
         """
         row, column = source.position(offset)
         written = source.line(row)[: column - 1].upper().split()

@@ -1,8 +1,8 @@
 """Warnings on how a program uses its sensors: motions without guards, flags that stay on, and speeds so high that the
 jolt at the start of a motion exceeds a force limit.
 
-All paths through the program are followed. The result shows, for each statement, which sensors are guarded on every
-path to the statement, and which flags may be on.
+All paths through the program are followed. The result shows two facts for each statement: which sensors are guarded on
+every path to it, and which flags may be on.
 """
 
 from collections.abc import Iterator, Mapping
@@ -39,8 +39,8 @@ class Watch(NamedTuple):
     speeds: tuple[tuple[int, int], ...] = ()  # speeds of slides (units per cycle) that the program has set
 
     def joined(self, other: "Watch") -> "Watch":
-        """Return what is known about the sensors before a statement to which two paths lead: `self` is
-        known after one path, and `other` after the other path.
+        """Two paths lead to a statement. The facts about the sensors are `self` after one path, and `other` after the
+        other. Return the facts before the statement.
         """
         limits, speeds, others = dict(self.limits), dict(self.speeds), dict(other.speeds)
         both = {sensor: min(limit, limits[sensor]) for sensor, limit in other.limits if sensor in limits}
@@ -76,8 +76,8 @@ def lint(lines: Mapping[int, Line]) -> Iterator[Diagnostic]:
 def _unguarded(
     lines: Mapping[int, Line], known: Mapping[int, Watch], motions: list[int]
 ) -> Iterator[Diagnostic]:
-    """Warn of arm motions during which no sensor is guarded. If several such motions follow each other, only the first
-    one is marked.
+    """Warn of arm motions during which no sensor is guarded. If several unguarded motions follow each other, only the
+    first one is marked.
     """
     of_the_arm = [number for number in motions if lines[number].statement.code not in ("HAND", "DHAND")]
     for guarded, group in groupby(of_the_arm, key=lambda number: bool(known[number].guarded)):

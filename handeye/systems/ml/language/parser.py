@@ -44,7 +44,7 @@ class _Mistaken(Exception):
 
 
 class _Written(NamedTuple):
-    """A parameter in the form in which it is written, with its place."""
+    """A parameter as it is written, and its place in the text."""
 
     minus: bool
     depth: int  # number of ampersands

@@ -52,8 +52,8 @@ class Line(Record, frozen=True, kw_only=True):
     spans: tuple[Span, ...]
 
     def place(self, parameter: int) -> Span:
-        """The span of the parameter with this number, counted from 0. If there is no such parameter, the span of the
-        command.
+        """Return the span of the parameter with this number, counted from 0. If the statement has no parameter with
+        this number, return the span of the command.
         """
         return self.spans[parameter + 1] if parameter + 1 < len(self.spans) else self.spans[0]
 

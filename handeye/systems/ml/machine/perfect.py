@@ -1,4 +1,6 @@
-"""Perfect motors: each is at its set-point when the next cycle begins. There are no parts and no errors."""
+"""Perfect motors: each is at its set-point when the next cycle begins. The simulation has no objects to handle, and no
+errors.
+"""
 
 from collections.abc import Callable, Mapping, Sequence
 from typing import Final
@@ -131,7 +133,7 @@ class PerfectArm(Axes, Outputs):
 
     def switch(self, channel: str, value: float) -> None:
         """Set the value of a channel, such as the panic button. The value holds until the channel is set again. Raises
-        NoSuchName.
+        NoSuchName if the arm has no channel with this name.
         """
         names = [each.name for each in self._channels]
         if channel not in names:

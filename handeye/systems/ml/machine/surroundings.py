@@ -29,7 +29,9 @@ class Stimulus(Record, frozen=True, kw_only=True):
     side: Literal["above", "below"] = "above"
 
     def acts(self, cycle: int, positions: Mapping[int, int]) -> bool:
-        """Return True if the channel has the stimulus's value in a cycle in which the motors are at these positions."""
+        """Return True if the stimulus acts on its channel in a cycle. `positions` are the positions of the motors in
+        that cycle.
+        """
         if cycle < self.since or (self.until is not None and cycle >= self.until):
             return False
         if not self.motor:

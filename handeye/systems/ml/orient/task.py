@@ -136,8 +136,8 @@ def _touch(truth: Truth, one: str, other: str) -> bool:
 def _add_cradle(
     spec: mujoco.MjSpec, at: Array, pitch: float, yaw: float, friction: float, *, wide: float, long: float
 ) -> None:
-    """Add the bar and its cradle, at x and y of the slides (m). The cradle has two narrow plates on feet, on which the
-    ends of the bar lie, and a lip at the lower end of the bar.
+    """Add the bar and its cradle, at x and y of the slides (m). The ends of the bar lie on two narrow plates of the
+    cradle. Each plate stands on a foot. The cradle has a lip at the lower end of the bar.
     """
     import mujoco
 

@@ -1,4 +1,6 @@
-"""The cycle of the real-time level: sample, check sensors, check goals, output, in the order of the paper."""
+"""The cycle of the real-time level. In the order of the paper, the level samples the inputs, checks the sensors,
+checks the goals, and sets the outputs.
+"""
 
 from collections.abc import Callable
 from typing import Final
@@ -256,8 +258,8 @@ class Cycles:
         self._told(LimitCrossed, sensor=number, reading=sensor.reading, lower=lower, upper=upper)
 
     def _hold(self) -> None:
-        """Replace the strategic goal of every motor by its position, or by the end of the motor's travel if a
-        potentiometer shows a position beyond that end.
+        """Make the present position of every motor its strategic goal. If a potentiometer shows a position beyond the
+        end of the motor's travel, this end becomes the goal.
         """
         for _, motor, line in self._motors:
             line.strategic = min(max(nearest_detent(line.position, line.detent), motor.lower), motor.upper)

@@ -223,8 +223,8 @@ class RealTime(Cycles, Level):
 
 
 def _fits(memory: ArmMemory, own: ArmMemory) -> bool:
-    """Return True if the tables of a state are as long as this arm's own tables, and all words in the state have
-    possible values.
+    """Return True if the tables of a state are as long as this arm's own tables, and no word in the state has an
+    impossible value.
     """
     return (
         all(

@@ -26,7 +26,7 @@ class MachineMemory(MutableRecord, kw_only=True):
 
 
 class Machine:
-    """The real-time levels of the arms, which have some tables in common. The arms do not wait for each other, and
+    """The real-time levels of the arms. The levels have some tables in common. The arms do not wait for each other, and
     do not avoid each other.
     """
 

@@ -1,4 +1,4 @@
-"""Converts inputs to positions and readings, and compares them with limits."""
+"""Converts inputs to positions and readings, and compares the readings with limits."""
 
 from collections.abc import Sequence
 from typing import Final
@@ -60,7 +60,7 @@ def sensed(line: SensorLine, analog: Sequence[int], digital: Sequence[int]) -> i
 
 
 def outside(reading: int, lower: int, upper: int, open_bits: int) -> bool:
-    """Return True unless a reading is strictly between two limits. An open limit is ignored."""
+    """Return True if a reading is at or beyond one of its limits. An open limit is ignored."""
     return not (open_bits & LOWER_OPEN or lower < reading) or not (open_bits & UPPER_OPEN or reading < upper)
 
 

@@ -12,8 +12,8 @@ _OF_SENSORS = ("reading", "flag")
 
 
 def level_channels(levels: Mapping[Side, RealTime]) -> tuple[Channel, ...]:
-    """Return the channels of all arms. Each channel has one part per motor or sensor, in the order of the numbers of
-    the motors or sensors.
+    """Return the channels of all arms. Each channel has one part per motor or sensor, in ascending order of their
+    numbers.
     """
     return tuple(
         Channel(name=_named(name, side, len(levels)), width=width)

@@ -31,7 +31,7 @@ class Ending(NamedTuple):
 
 
 class Hardware(ABC):
-    """The machine of a run. The run asks the machine for the state that the run shows. The machine passes printed
+    """The machine of a run. The machine gives the run the state that the run shows. The machine passes printed
     lines and executed statements to its job.
     """
 
@@ -63,7 +63,7 @@ class Hardware(ABC):
     @abstractmethod
     def signal(self, interlock: str, *, on: bool) -> None:
         """Switch the signal of an interlock, which a person or a device would switch in a real room. Raises NoSuchName
-        if the hardware has no such interlock.
+        if the hardware has no interlock with this name.
         """
 
     def hear(self, text: str) -> None:  # noqa: B027 - few jobs listen

@@ -44,7 +44,7 @@ class MlPlan(Record, frozen=True, kw_only=True):
 
     @property
     def lines(self) -> Mapping[int, Line]:
-        """The stored statements by their numbers. Raises BadFile if the text has errors."""
+        """The stored statements. The keys are their numbers. Raises BadFile if the text has errors."""
         return stored(self.name, self.text, self.first, self.left)
 
     @property
@@ -55,7 +55,7 @@ class MlPlan(Record, frozen=True, kw_only=True):
 
 @lru_cache(maxsize=8)
 def stored(name: str, text: str, first: int | None, left: int | None) -> Mapping[int, Line]:
-    """Return the lines of a program by their numbers. Raises BadFile if the text has errors."""
+    """Return the lines of a program. The keys are the numbers of the lines. Raises BadFile if the text has errors."""
     lines, found = checked(Source(text=text, name=name), first=first, left=left)
     if errors := [each for each in found if each.severity == "error"]:
         raise BadFile(f"{name} has {counted(len(errors), 'mistake')}, the first: {errors[0].message}")

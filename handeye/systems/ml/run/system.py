@@ -1,4 +1,4 @@
-"""Defines MOS and ML as a system, which builds runs and provides the words for them."""
+"""Defines the system of MOS and ML. The system builds runs, and provides the words for these runs."""
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path

@@ -138,7 +138,9 @@ def mm(x: float, y: float) -> Place:
 
 
 def row(places: tuple[tuple[int, int], tuple[int, int]], number: int) -> tuple[int, int]:
-    """Return one of the places in a row. The distance between neighbours is the same along the whole row."""
+    """Return the place that has the number `number` in a row of places. The distance between neighbours is the same
+    along the whole row.
+    """
     (x, y), (dx, dy) = places
     return x + number * dx, y + number * dy
 

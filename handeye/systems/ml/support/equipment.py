@@ -1,4 +1,4 @@
-"""The screwdriver of the work station, and the referee's gauge of the forces on the fingers."""
+"""The screwdriver of the work station, and a gauge that measures the forces on the fingers for the referee."""
 
 from typing import Final
 

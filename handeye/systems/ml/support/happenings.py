@@ -34,8 +34,8 @@ class ScrewReported(SystemEvent, frozen=True, kw_only=True):
     screw: int
     found: Found
     deeper: float
-    """How much deeper (m) the bit is than on a seated screw. If the screw was not turned, the comparison is with a
-    screw in the mouth of its thread.
+    """How far (m) the bit is below its height on a seated screw. For a screw that is `lost` or `beside`: how far the
+    bit is below its height on a screw in the mouth of its thread.
     """
     torque: float  # N m; 0 if the clutch has not slipped
 
@@ -48,7 +48,7 @@ class ScrewReported(SystemEvent, frozen=True, kw_only=True):
 
 
 def reported(line: str, time: float) -> ScrewReported | None:
-    """Return the report of a screw in a printed line, or None if the line contains no such report."""
+    """Return the report that a printed line makes of a screw, or None if the line reports no screw."""
     words = [*map(int, line.split()), 0, 0, 0, 0]
     if words[0] not in FOUND:
         return None

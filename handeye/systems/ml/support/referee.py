@@ -1,4 +1,6 @@
-"""The referee of the rail support: parts in their places, screws in their threads, and the screwdriver in its rack."""
+"""The referee of the rail support. It judges whether the parts are in their places, the screws in their threads, and
+the screwdriver in its rack.
+"""
 
 from math import degrees, hypot
 from typing import Final
@@ -31,8 +33,8 @@ from handeye.tasks.stanford_cell.screws import LENGTH, Place
 
 PLACED: Final = 1.5
 """Greatest distance (mm) of a part from its place in the frame, and of the frame from its place in the nest. In a
-direction in which no stop holds the part, the following can add up to 1.3 mm: the errors of the fixtures and of two
-motions, and the play of pallets and nest.
+direction without a stop, the errors of the fixtures and of two motions, and the play of pallets and nest, can add up
+to 1.3 mm.
 """
 SEATED: Final = 0.5  # mm: greatest height of a part over its seat
 LEAN: Final = 1.0  # deg

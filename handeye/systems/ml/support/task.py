@@ -95,12 +95,12 @@ class Support(ArmTask):
 def screwing(
     spec: mujoco.MjSpec, world: ArmWorld, others: Sequence[Mechanism[Any]] = ()
 ) -> tuple[Station, ForceGauge]:
-    """Return the station of a scene with the parts of the support, and its force gauge. In this station, the
-    screwdriver can drive the screws.
+    """Return the station of a scene that has the parts of the support. Also return the station's force gauge. In this
+    station, the screwdriver can drive the screws.
 
     Args:
-        others: other mechanisms of the job. The cell keeps the state of these mechanisms, but they do nothing as time
-            passes.
+        others: other mechanisms of the job. The cell keeps the states of these mechanisms, but the mechanisms do
+            nothing as time passes.
     """
     drawing, driver = Drawing(world), PowerScrewdriver()
     tools = {"screwdriver": driver.turn, "reverse": driver.reverse}

@@ -1,6 +1,6 @@
-"""Lines of tables, with a named field for each word. The fields are in the order of the words in the table.
-Lines that change in every cycle are mutable. All other lines are immutable: a new line replaces the old line. Saved
-states can therefore share these lines.
+"""Lines of tables, with a named field for each word. The fields are in the order of the words in the table. Lines that
+change in every cycle are mutable. All other lines are immutable: a new line replaces the old line. Saved states can
+therefore share the immutable lines.
 """
 
 from typing import Annotated, Final

@@ -46,7 +46,7 @@ _BY_PROGRAMS: Final[Mapping[str, tuple[str, ...]]] = {
     "AR": ("coordinate",), "CY": ("used", "share"), "EM": (), "FE": (), "GO": (), "PF": (), "PI": (), "SF": ()
 }  # fmt: skip
 """For each of these tables, the words that a program can write. In all other tables, a program can write every word.
-Whatever a program writes, it cannot prevent an emergency.
+No program can delete a recorded emergency (`EM`), or change the interlocks (`SF`).
 """
 
 
@@ -115,7 +115,7 @@ class Tables:
         self.views: dict[str, View] = {}  # contents that the background level keeps
 
     def read(self, table: str, line: int, word: int) -> int:
-        """Return a word. Raises MlError (M11) if there is no such word."""
+        """Return a word. Raises MlError (M11) if the word does not exist."""
         shape = self._shape(table, line, word)
         if table in self.views:
             return self.views[table].read(line, word)

@@ -1,4 +1,4 @@
-"""A toy train: each wagon has a peg at its front, which goes into the hole at the rear of the vehicle ahead."""
+"""A toy train. The peg at the front of each wagon goes into the hole at the rear of the vehicle ahead."""
 
 from typing import Final
 

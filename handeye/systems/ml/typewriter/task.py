@@ -158,7 +158,9 @@ def _metres(place: tuple[int, int]) -> Place:
 
 
 def _add_ridges(spec: mujoco.MjSpec) -> None:
-    """Add four ridges to the frame, between which the bar lies: one along each side of the bar, and one at each end."""
+    """Add the four ridges between which the bar lies in the frame: one along each side of the bar, and one at each
+    end.
+    """
     shaper, frame, (thick, high) = Shaper(spec=spec), spec.body("frame"), _RIDGE
     middle, long, wide = mm(*BAR), LONG / MILLIMETRE, WIDE / MILLIMETRE
     end, side = (half / 2 + play + thick / 2 for half, play in zip((long, wide), _PLAY, strict=True))

@@ -1,4 +1,4 @@
-"""The legs that do a stage of the pump in each language, and why some languages have none."""
+"""The legs that do a stage of the pump in each language, and the reasons why some languages cannot do a stage."""
 
 import re
 from collections.abc import Iterable, Iterator, Mapping
@@ -77,7 +77,7 @@ def shared() -> tuple[str, ...]:
 
 
 def stage_named(name: str) -> str:
-    """Return a stage by its name. Raises NoSuchName if the pump's own program has no such stage."""
+    """Return the stage called `name`. Raises NoSuchName if the pump's own program has no stage with this name."""
     if name not in stages():
         near = suggestion(name, stages()) or f"the stages are {', '.join(map(quoted, stages()))}"
         raise NoSuchName(f"the pump's own program has no stage {quoted(name)}; {near}")
@@ -114,7 +114,7 @@ def programs(legs: Iterable[StageLeg]) -> dict[str, TimedProgram]:
 
 def relay_of(leg: StageLeg, known: Mapping[str, TimedProgram]) -> RelayPlan:
     """Return a relay in which the careful program does all stages before the stage of `leg`. The program of `leg` then
-    does this stage. `known` has the programs by file.
+    does this stage. `known` has the programs; its keys are their files.
     """
     before = stages()[: stages().index(leg.stage)]
     done = [*((stage, CAREFUL) for stage in before), (leg.stage, leg.file)]

@@ -43,7 +43,7 @@ NOT_REACHED: Final = "not reached"
 
 
 class StageRow(TrialRow, frozen=True, kw_only=True):
-    """A stage in one language, in one world."""
+    """The trial of a stage in one language and one world."""
 
     of: str = ""  # the stage
     language: str = ""
@@ -158,7 +158,7 @@ class CostLine(Record, frozen=True, kw_only=True):
 
 
 class PairLine(Record, frozen=True, kw_only=True):
-    """Two languages in the same stage, over the worlds in which both were tried."""
+    """A comparison of two languages that do the same stage, in the worlds in which both were tried."""
 
     stage: str
     one: str

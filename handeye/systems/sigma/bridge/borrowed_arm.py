@@ -1,4 +1,5 @@
-"""The Stanford arm in place of arm 1: the axes X1, Y1 and Z1 drive coordinates of its tool, and there is no bus.
+"""The Stanford arm replaces arm 1: the axes X1, Y1 and Z1 move the tool of the Stanford arm along its coordinates, and
+there is no bus.
 
 The central computer gives this arm the same commands as the motors of SUPERSIGMA. The commands are not sent as bytes;
 instead, they set a new goal of the tool in each servo period of 1/60 s (`execution/tool_axes.py`). Commands, places
@@ -56,7 +57,7 @@ class BorrowedArm(PerfectMotors):
     """
 
     def __init__(self, drive: ArmDrive, at: tuple[float, float] = AT) -> None:
-        """Take control of an arm that the servo holds in place, and bring its tool to the place where the axes are at
+        """Take control of an arm that the servo holds in place. Then bring the tool to the place that the axes have at
         power-on.
         """
         super().__init__()

@@ -1,5 +1,5 @@
-"""Finds, for each line of a single task, the places, limits and speeds that are the same on every path by which the
-task can reach the line.
+"""A task can reach a line by several paths. For each line of a single task, this module finds the places, limits and
+speeds that are the same on every path.
 """
 
 from collections.abc import Callable, Mapping, Sequence
@@ -127,9 +127,7 @@ def flow(lines: Sequence[Line], tests: Tests) -> dict[int, Before]:
 def _left(
     line: Line, after: int | None, before: Before, test: ForceTest | None
 ) -> list[tuple[int | None, Before]]:
-    """Return the lines that may follow a line. With each of these following lines, return the facts that are known
-    before the following line is executed.
-    """
+    """Return the lines that may follow a line, each with the facts that are known before it is executed."""
     statement = line.statement
     change: Callable[..., Before] = lambda **fields: replace(before, **fields)  # noqa: E731
     match statement.word:

@@ -29,7 +29,7 @@ def bridge(at: tuple[float, float] = AT) -> Language:
 
 
 def phrase(program: Program, arm: NamedArm, findings: Iterable[PlanFinding]) -> list[Diagnostic]:
-    """Turn each finding of the planner into a diagnostic at the program line that it concerns."""
+    """Turn each finding of the planner into a diagnostic at the program line that the finding concerns."""
     return arranged(_phrased(program, arm, finding) for finding in findings)
 
 

@@ -1,5 +1,5 @@
-"""Lets SUPERSIGMA run legs of a relay: a MAL program moves the tool of the Stanford arm as if it were arm 1. There is
-no bus.
+"""Lets SUPERSIGMA run legs of a relay: a MAL program moves the tool of the Stanford arm as if this tool were the hand
+of arm 1. There is no bus.
 
 The corner X1 = 0, Y1 = 0 of the board is at x = 350 and y = 800 mm on the table, and Z1 = 0 is 240 mm above the table.
 The hand points straight down, with its fingers along Y. When a leg begins, the hand is brought straight to the nearest
@@ -187,7 +187,7 @@ class MalLeg(ToolLeg, RunningMal):
         self._rest()
 
     def _rest(self) -> None:
-        """Copy the state of the arm, after a statement, to the state that is saved."""
+        """After a statement, copy the state of the arm to the state that is saved."""
         self.tool.rest()
         state, arm = self._state, self._machine
         state.limits = {number: limit for number, limit in arm._limits.items() if limit is not None}
@@ -261,7 +261,7 @@ class MalLegs(ToolLegs):
         return super().lacks(plan, stage, earlier)
 
     def reads(self, plan: Any, stage: str) -> Sequence[Use]:
-        """Return the values in variables that the program never sets."""
+        """Return the places and heights in variables that the program reads but never sets."""
         given = _variables(plan, "PUSHV") - _variables(plan, "POPV") - _counted(plan)
         kinds: dict[str, Kind] = {"X": "place", "Y": "place", "Z": "place", "H": "height"}
         return [

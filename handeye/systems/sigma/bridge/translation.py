@@ -75,8 +75,8 @@ _CURE: Final = (
 
 
 class _Stop(NamedTuple):
-    """The successor of a step. If `here` is a number, the successor is that many steps further on. If not, it is at
-    the line `line`.
+    """The successor of a step. If `here` is a number, the successor is `here` steps further on. If `here` is None, the
+    successor is at the line `line`.
     """
 
     line: int | None = None
@@ -190,7 +190,9 @@ def _arms_of(statement: Statement) -> set[int]:
 
 
 def _force_tests(lines: Sequence[Line]) -> tuple[dict[int, ForceTest], list[Diagnostic]]:
-    """Return the force tests that directly follow a motion, by the line of this motion. Also return the refused IFs."""
+    """Return the force tests that directly follow a motion. The key of a test is the line of its motion. Also return
+    the refused IFs.
+    """
     targets = {int(each.target.text) for line in lines for each in _branches(line.statement) if each.target}
     tests, wrong = dict[int, ForceTest](), list[Diagnostic]()
     following = [*(line.number for line in lines[1:]), END]

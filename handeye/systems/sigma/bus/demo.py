@@ -131,7 +131,7 @@ def verdict(shown: Demonstration) -> list[str]:
 
 
 def told(shown: Demonstration) -> list[str]:
-    """Return the log of both diagrams, one line per event."""
+    """Return the log of the command and of the question, one line per event."""
     first = shown.diagrams[0].begin
     events = sorted((e for e in shown.log if e.at >= first), key=lambda event: event.at)
     return [event_text(event) for event in events]

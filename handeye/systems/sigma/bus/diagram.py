@@ -174,8 +174,8 @@ _ASCII: Final = ("-", "_", "|")
 
 
 def as_text(drawn: Diagram, width: int = 100, *, ascii: bool = False) -> list[str]:
-    """Return a diagram as lines of text. The lines have at most `width` characters. If fewer than 20 columns would then
-    be left for the time, the lines are longer, and the time has 20 columns.
+    """Return a diagram as lines of text. The time axis always has at least 20 columns. Apart from that, the lines have
+    at most `width` characters.
     """
     behind = max((len(receiver.says) + 1 for receiver in drawn.receivers), default=0)
     columns = max(20, width - _NAME - behind)

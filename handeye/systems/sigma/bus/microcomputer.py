@@ -1,5 +1,5 @@
-"""A microcomputer on the bus, which polls the strobe with its own clock, takes five bytes, and executes the command if
-the bytes are addressed to this microcomputer.
+"""A microcomputer on the bus. It polls the strobe with its own clock and takes five bytes. If the bytes are addressed
+to this microcomputer, it executes the command.
 """
 
 from collections.abc import Sequence
@@ -103,10 +103,10 @@ class Microcomputer:
 
     def listen(self, at: int, sent: Sequence[Sending], wires: Wires, *, quiet: bool) -> list["Taken"]:
         """Look for a strobe if the microcomputer is free to take a command. Returns the commands for other
-        microcomputers. This microcomputer takes such commands from the lines and then drops them.
+        microcomputers that this microcomputer took from the lines and then dropped.
 
-        Commands for other microcomputers are returned only if no line is faulty and no answer is on the lines
-        (`quiet`). In all other cases, this microcomputer receives these commands byte by byte.
+        If a line is faulty, or if an answer is on the lines (`quiet` is False), no commands are returned. This
+        microcomputer then receives each command byte by byte, even a command for another microcomputer.
         """
         memory, passed = self.memory, list[Taken]()
         if not self._takes():
@@ -152,8 +152,8 @@ class Microcomputer:
     def receive(
         self, at: int, sent: Sequence[Sending], speeches: Sequence[Speech], wires: Wires
     ) -> Taken | None:
-        """Return the five bytes that the microcomputer has taken, if it has just compared the number in these bytes
-        with its own number. Returns None at all other times.
+        """Return the five bytes that the microcomputer has taken. It returns them at the moment when it compares the
+        number in the bytes with its own number, and None at all other times.
         """
         noticed = self.memory.noticed
         if noticed is None or self._checked(noticed) != at:

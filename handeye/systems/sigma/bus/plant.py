@@ -1,5 +1,5 @@
-"""Defines the interface of the machine that is connected to the pins of the microcomputers, and an ideal
-machine whose rotors follow each pulse.
+"""Defines the interface of a machine to the pins of the microcomputers. Also defines an ideal machine, whose rotors
+follow each pulse.
 """
 
 from abc import ABC, abstractmethod
@@ -60,8 +60,8 @@ class Plant(ABC, Generic[Kept]):
 
     @abstractmethod
     def next_pin(self, number: int, motor: Motor) -> tuple[int, Pin, bool] | None:
-        """Return the next change of a switch of the rail if the motor continues: the time, the pin of the switch,
-        and the new level. None if no switch changes.
+        """If the motor continues, a switch of the rail may change. Return the time of the next change, the pin of the
+        switch, and the new level; return None if no switch will change.
         """
 
     @abstractmethod

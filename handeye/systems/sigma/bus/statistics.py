@@ -30,8 +30,7 @@ def error_rate(clock: float, commands: int, seed: int = 0, timing: Timing | None
     """Send random commands to receivers that become free at random times. Each receiver's clock runs fast or slow by a
     random fraction, at most `clock`.
 
-    A receiver becomes free at a random time, either while the command is sent or before. The earliest time is one
-    command's duration before the command begins.
+    A receiver becomes free either while its command is sent or, at the earliest, one command's duration before that.
     """
     timing = timing or Timing()
     wires = Wires(_ANOTHER, timing, ())

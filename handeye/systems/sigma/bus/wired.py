@@ -81,7 +81,8 @@ class WiredBus(MicrobusPort):
 
         Args:
             defects: injected faults of the bus.
-            seed: seed of the random times at which the microcomputers begin to poll, and of their clock errors.
+            seed: seed of the random numbers. These are the times at which the microcomputers begin to poll, and the
+                errors of their clocks.
             clock_spread: greatest clock error, as a fraction, for example .005.
         """
         layout.check()
@@ -308,7 +309,7 @@ class WiredBus(MicrobusPort):
         return change[0] if change else None
 
     def _scan_due(self, node: Microcomputer, at: int) -> int | None:
-        """Return the time of a force microcomputer's next scan if the scan changes a reading, or else None."""
+        """Return the time of a force microcomputer's next scan, or None if this scan will not change a reading."""
         if node.dead or not self.plant.predicts or not isinstance(node.device, Force):
             return None
         number, device = node.place.number, node.device

@@ -1,4 +1,4 @@
-"""Computes the levels of the lines, by segment and time, for receivers that sample the lines at any time.
+"""Computes the levels of the lines on each segment. Receivers can sample the lines at any time.
 
 The whole wave of a command or an answer is determined when it begins. Times are in picoseconds.
 """
@@ -67,8 +67,9 @@ class Wires:
         return (sending.start + sending.falls) * PS, (sending.start + sending.rises) * PS
 
     def whole(self, sending: Sending, segment: int, first: int, last: int) -> bool:
-        """Return True if evenly spaced samples, the first at `first` and the last at `last` (ps), read each
-        byte of a command as it was sent."""
+        """Samples are evenly spaced from the time `first` to the time `last` (ps). Return True if they read each byte
+        of a command as it was sent.
+        """
         begin, slot = (sending.start + self.settle) * PS, self.timing.slot * PS
         end = begin + len(sending.frame) * slot
         return self._clean[segment] and begin <= first < begin + slot and end - slot <= last < end

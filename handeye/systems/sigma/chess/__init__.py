@@ -1,2 +1,3 @@
-"""The chess experiment of the paper: the arms find pieces, measure them, and put each on the line for its
-height."""
+"""The chess experiment of the paper: the arms find pieces, measure them, and put each on the line for pieces of its
+height.
+"""

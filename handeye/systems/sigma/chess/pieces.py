@@ -54,7 +54,7 @@ class Piece(Record, frozen=True, kw_only=True):
 
     @property
     def goal(self) -> float:
-        """Y coordinate of the line for the piece's height (mm)."""
+        """Y coordinate (mm) of the line on which pieces of this height must stand."""
         return BY_HEIGHT[sum(self.height > limit for limit in LIMITS)]
 
 

@@ -1,5 +1,5 @@
-"""Defines the chess experiment as a task. The referee checks that each piece stands on the line for its height,
-and that the reported heights are right.
+"""Defines the chess experiment as a task. The referee checks that each piece stands on the line for pieces of its
+height, and that the reported heights are right.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ _NEAR: Final = 10.0  # mm along X from a piece to the place at which the program
 
 
 class Chess(JobTask):
-    """Find pieces along three lines, measure their heights, and put each on the line for its height."""
+    """Find pieces along three lines, measure their heights, and put each on the line for pieces of its height."""
 
     name = "chess"
     words = Words(product="the board", done="Each piece stands on the line for its height.")
@@ -59,7 +59,10 @@ class Chess(JobTask):
                 lifted / MILLIMETRE, STANDS, "mm", "greatest height of a piece's foot above the board"
             ),
             "sorted": at_most(
-                across, PLACED, "mm", "greatest distance of a piece from the line for its height"
+                across,
+                PLACED,
+                "mm",
+                "greatest distance of a piece from the line where pieces of its height belong",
             ),
             "heights": at_most(wrong, HEIGHT, "mm", "greatest error of a height measured by the program"),
         }

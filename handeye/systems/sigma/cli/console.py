@@ -264,7 +264,9 @@ class Console:
         width = max(len(each.usage) for each in COMMANDS.values())
         for each in COMMANDS.values():
             self._tell(f"{each.usage:{width}}  {each.help}")
-        self._tell("A line with a number is added to the program; the number alone removes the line.")
+        self._tell(
+            "To add a line to the program, start it with its number. To remove a line, enter only its number."
+        )
 
     def _bye(self, _: str) -> None:
         self.over = True

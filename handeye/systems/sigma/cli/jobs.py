@@ -48,8 +48,8 @@ def chess(
 ) -> int:
     """Find chess pieces along three lines, measure their heights with a light beam, and sort them, as in the paper.
 
-    `plans/chess.mal` runs on two simulated gantries, in a world with errors. A referee then checks that each
-    piece stands on the line for its height, within 5 mm and 3 degrees, and that each measured height is right
+    `plans/chess.mal` runs on two simulated gantries, in a world with errors. A referee then checks that each piece
+    stands on the line for pieces of its height, within 5 mm and 3 degrees, and that each measured height is right
     within .6 mm.
 
     Exit code 0: right; 1: the program stopped before its end; 3: the program ended, but the referee disagrees; 2:
@@ -69,9 +69,9 @@ def handover(
 ) -> int:
     """Hand four pieces from arm to arm: arm 1 brings the pieces; arm 2 presses in their pins and takes the pieces away.
 
-    `plans/handover_pieces.mal` runs on two simulated gantries, in a world with errors. A referee then checks
-    that each piece stands at its final place, within 3 mm and 3 degrees, with its pin protruding by at most .5 mm;
-    that the program counted the finished pieces correctly; and that the arms never touched each other.
+    `plans/handover_pieces.mal` runs on two simulated gantries, in a world with errors. A referee then checks that each
+    piece stands at its final place, within 3 mm and 3 degrees, with its pin protruding by at most .5 mm. The program
+    must have counted the finished pieces correctly, and the arms must never have touched each other.
 
     Exit code 0: right; 1: the program stopped before its end, for example at a deadlock or because the arms
         collided; 3: the program ended, but the referee disagrees; 2: bad input; 130: interrupted.
@@ -90,10 +90,10 @@ def insert(
 ) -> int:
     """With both arms, straighten pegs in a rack, and find the holes for the pegs by force.
 
-    `plans/insert.mal` runs on two simulated gantries, in a world with errors. Each peg is rotated by up to 20
-    degrees, and plates lie up to 3 mm from their places. A referee then checks that each peg stands in its hole, no
-    plate moved by more than 1 mm, no wrist felt more than 25 N, no motor lost a step, the program counted the inserted
-    pegs correctly, and the arms never touched each other.
+    `plans/insert.mal` runs on two simulated gantries, in a world with errors. Each peg is rotated by up to 20 degrees,
+    and plates lie up to 3 mm from their places. A referee then checks that each peg stands in its hole, and that no
+    plate moved by more than 1 mm. No wrist may have felt more than 25 N, no motor may have lost a step, and the arms
+    must never have touched each other. The program must have counted the inserted pegs correctly.
 
     Exit code 0: right; 1: the program stopped before its end; 3: the program ended, but the referee disagrees; 2:
     bad input; 130: interrupted.
@@ -116,8 +116,8 @@ def line(
 
     `plans/line.mal` runs on four simulated arms, a feeder and a belt, in a world with errors. The machine has 26
     microcomputers on one bus of three segments. A referee then checks that each piece stands at its place on the belt,
-    within 3 mm and 3 degrees, with both pins protruding by at most .5 mm; that the program counted the finished pieces
-    correctly; and that the arms never touched each other.
+    within 3 mm and 3 degrees, with both pins protruding by at most .5 mm. The program must have counted the finished
+    pieces correctly, and the arms must never have touched each other.
 
     Exit code 0: right; 1: the program stopped before its end, for example at a deadlock or because arms collided;
         3: the program ended, but the referee disagrees; 2: bad input; 130: interrupted.
@@ -137,10 +137,10 @@ def prco(
     """Assemble the plate of the pump with two arms: arm 1 lays the plate down and puts in two pins; arm 2 drives six
     screws.
 
-    `plans/prco.mal` runs on two simulated gantries, in a world with errors. A referee then checks that the
-    plate lies on its base, with both pins at the bottom of their holes; that each screw is in its thread, with its
-    head at its seat and a clamping force of at least 40 N; that the program counted the pins and screws in place
-    correctly; and that the arms never touched each other.
+    `plans/prco.mal` runs on two simulated gantries, in a world with errors. A referee then checks that the plate lies
+    on its base, with both pins at the bottom of their holes. Each screw must be in its thread, with its head at its
+    seat and a clamping force of at least 40 N. The program must have counted the pins and screws in place correctly,
+    and the arms must never have touched each other.
 
     Exit code 0: right; 1: the program stopped before its end, for example because a screw did not reach its seat;
         3: the program ended, but the referee disagrees; 2: bad input; 130: interrupted.

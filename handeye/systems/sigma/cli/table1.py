@@ -7,8 +7,8 @@ from handeye.systems.sigma.cli.studies import put_study
 def table1(*, json: Json = False) -> int:
     """Compare the commands, seconds, bus load and idle time of four programs with table 1 of the paper.
 
-    Layer 1 repeats one move. Layer 2 runs the programs `plans/table1_*.mal`, which we wrote like those of the paper.
-    All motors are perfect.
+    Layer 1 repeats one move. Layer 2 runs our own programs, `plans/table1_*.mal`, which do the work that the names of
+    the paper's programs suggest. All motors are perfect.
 
     Exit code 0: all claims of the paper hold; 1: a claim does not hold; 2: bad input.
     """

@@ -76,7 +76,7 @@ class Machine(IdealMachine):
         self.now = 0
 
     def fault(self, kind: MachineKind, number: int = 0) -> MachineFault | None:
-        """Return the planted fault of a kind at a microcomputer, or None if there is no such fault."""
+        """Return the planted fault if it is of this kind and at this microcomputer, or else None."""
         return self.faults.get((kind, number))
 
     # -- rotors --------------------------------------------------------------------------------------------
@@ -247,13 +247,13 @@ class Bench:
         self._switch_on()
 
     def press(self, arm: int, component: str, newtons: float) -> None:
-        """Press on a hand with a known force (N) in the direction of one of the force components that its wrist
-        measures. A force of 0 releases the hand.
+        """Press on a hand with a known force (N). `component` is the force component of the wrist in whose direction
+        the force acts. A force of 0 releases the hand.
         """
         self.machine.loads[NUMBERS[f"FORCE{arm}"], COMPONENTS.index(component)] = newtons
 
     def pull(self, axis: str, newtons: float) -> None:
-        """Let a spring balance pull at the slide of an axis, against forward motion, with a force (N). A force
+        """Let a spring balance pull back the slide of an axis with a force (N). A force
         of 0 removes the balance."""
         self.machine.pulls[NUMBERS[axis]] = newtons
 

@@ -63,7 +63,7 @@ class Draw:
 
 
 class _InTurn(Draw):
-    """Chooses the options whose numbers are given in advance; after the last of these numbers, always chooses the
+    """Chooses the options whose numbers are given in advance. When the numbers are used up, it always chooses the
     first option.
     """
 
@@ -248,7 +248,7 @@ FAULTS: Final[dict[str, Fault]] = {
 
 def planted(name: str, seed: int | None = None) -> Planted:
     """Return the fault called `name`, at its usual place, or at a random one if a seed is given. Raises NoSuchName if
-    there is no such fault.
+    no fault has this name.
     """
     if name not in FAULTS:
         raise NoSuchName(f"there is no fault {quoted(name)}; the faults are {', '.join(FAULTS)}")

@@ -277,7 +277,7 @@ def _all_parts() -> dict[str, str]:
 
 
 def known_part(text: str) -> str:
-    """Return the name of a part in its usual spelling. Raises NoSuchName if there is no such part."""
+    """Return the name of a part in its usual spelling. Raises NoSuchName if no part has this name."""
     parts, typed = _all_parts(), " ".join(text.lower().split())
     if typed not in parts:
         near = suggestion(typed, parts) or "`parts` lists them"

@@ -69,8 +69,9 @@ def self_tests(at: Technician) -> SelfTests:
 
 @dataclass(frozen=True, slots=True)
 class Clocks:
-    """The clock error of each microcomputer: the percentage by which the clock is slower than usual. It is measured by
-    the times of the microcomputer's answers. The value is None for a microcomputer that does not answer.
+    """The clock error of each microcomputer: the percentage by which the clock is slower than usual. The test computes
+    this error from the times of the microcomputer's answers. The value is None for a microcomputer that does not
+    answer.
     """
 
     slow: dict[int, float | None]
@@ -220,8 +221,8 @@ def _motion(bus: MicrobusPort, axis: str, command: Command, steps: int) -> Motio
 
 @dataclass(frozen=True, slots=True)
 class Lost:
-    """The steps that motors have lost (computed from the count at which the low switch acts), and the axes that a force
-    has stopped.
+    """The steps that motors have lost, and the axes that a force has stopped. The lost steps are computed from the
+    count at which the low switch acts.
     """
 
     what: str
@@ -241,8 +242,8 @@ class Lost:
 
 
 def moves(at: Technician, *axes: str) -> Lost:
-    """Move axes out at full speed, all at the same time, and then move them back slowly. The switches then show how
-    many steps were lost on the way out and back.
+    """Move the axes out together at full speed, and then move them back slowly. The low switches show how many
+    steps the motors lost on the way.
     """
     bus = at.bus
     for axis in axes:

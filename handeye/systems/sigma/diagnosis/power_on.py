@@ -138,10 +138,10 @@ def _microcomputer(number: int, heard: Mapping[int, _Heard], scanning: Container
     one = heard[number]
 
     def takes(stranger: int, other: int) -> bool:
-        """Return True if the microcomputer `stranger`, which is silent at its own number, answers to the number of the
-        microcomputer `other`. The usual sign is that both microcomputers become busy together. The microcomputer of a
-        wrist is always busy. If `stranger` is such a microcomputer, the sign is that `stranger` disturbs the answers
-        of `other`.
+        """The microcomputer `stranger` is silent at its own number. Return True if it answers to the number of the
+        microcomputer `other` instead. The usual sign is that both microcomputers become busy together. The
+        microcomputer of a wrist is always busy; if `stranger` belongs to a wrist, the sign is that it disturbs the
+        answers of `other`.
         """
         theirs = heard[other]
         seen = not theirs.right if stranger in scanning else stranger in theirs.busy

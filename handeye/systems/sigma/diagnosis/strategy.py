@@ -18,9 +18,9 @@ from handeye.systems.sigma.protocol import AXES, COMPONENTS, NUMBERS, name_of
 
 ARMS: Final = (1, 2)
 UNDECIDED: Final = (
-    "every test passes, but no test can find three faults: line A of a wrist or hand is stuck low (it never rises "
-    "even without this fault), line B of a wrist is stuck high (a wrist is always busy), or one of the two lowest "
-    "bits of a converter is stuck (these bits change a reading by .1 N at most)"
+    "every test passes, but no test can find three faults. Line A of a wrist or hand may be stuck low: it never "
+    "rises even without this fault. Line B of a wrist may be stuck high: a wrist is always busy. One of the two "
+    "lowest bits of a converter may be stuck: these bits change a reading by .1 N at most"
 )
 _NEAR_N: Final = 0.15  # greatest error of a sound wrist, if its load is known to .1 N
 _OFFSET_SPREAD_N: Final = 0.11  # greatest spread of the errors of a gauge that only has an offset
@@ -53,8 +53,8 @@ class Found(Exception):
 
 
 class Strategy:
-    """One diagnosis. `tell` is called after each test, with two values: the test in the form in which a player types
-    it, and the lines of text that state the result.
+    """One diagnosis. `tell` is called after each test, with two values: the test as a player types it, and the lines
+    of text that state the result.
     """
 
     def __init__(
@@ -94,8 +94,8 @@ class Strategy:
         if self._test("strobe", lambda: means.strobe(self._at)).misread:
             raise Found(
                 "computer",
-                "it raises /DATA READY so late that a microcomputer that becomes free during a command misreads the "
-                "command",
+                "it raises /DATA READY too late: if a microcomputer becomes free during a command, the "
+                "microcomputer misreads this command",
             )
 
     # -- wrists and hands, while no motor moves -----------------------------------------------------------------

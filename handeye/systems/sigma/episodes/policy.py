@@ -43,8 +43,8 @@ class ProgramPolicy(Policy):
 
 
 class _SeenBus(MicrobusPort):
-    """A microbus that leads to an episode. The bus collects the commands for one step of the episode, and combines
-    them into one action.
+    """A microbus whose commands and questions go to an episode. The bus collects the commands for one step of the
+    episode, and combines them into one action.
     """
 
     def __init__(self, episode: Episode) -> None:

@@ -34,8 +34,8 @@ class Crystal:
         return picoseconds * _TICKS // (PS + self.ppm)
 
     def after(self, since: int, micros: int, at: int) -> int:
-        """Return the first of the times `since`, `since` plus one interval, `since` plus two intervals, and so on,
-        that is not before `at`. The interval is `micros` (microseconds).
+        """An action repeats at intervals of `micros` (microseconds), first at the time `since`. Return the first of
+        its times that is not before `at`.
         """
         step = self.micros(micros)
         return since + max(0, -(-(at - since) // step)) * step
@@ -58,7 +58,7 @@ class Device(ABC):
 
     @property
     def due(self) -> int | None:
-        """Time of the next action that needs no command (ps), or None if there is no such action."""
+        """Time of the next action that needs no command (ps), or None if no action is due without a command."""
         return None
 
     def elapse(self, at: int) -> None:

@@ -1,5 +1,5 @@
-"""Firmware of a wrist, which scans the three components of force. While a component exceeds its threshold, the
-signal line from the wrist to the motor microcomputer of this axis is active.
+"""Firmware of a wrist, which scans the three components of force. Each component has a signal line to the motor
+microcomputer of its axis. This line is active while the component exceeds its threshold.
 """
 
 from collections.abc import Sequence

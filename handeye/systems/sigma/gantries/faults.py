@@ -27,7 +27,9 @@ _SLOW_MS: Final = 400.0  # ms in which slow fingers close or open
 
 @cache
 def every_fault() -> dict[str, Planted]:
-    """Return all faults that the machine of a job can have, by name. The usual variant of each fault comes first."""
+    """Return all faults that the machine of a job can have. The keys are the names of the faults. The usual variant of
+    each fault comes first.
+    """
     return {name: found for kind in FAULTS for name, found in variants(kind) if _possible(found)}
 
 

@@ -1,10 +1,10 @@
-"""Simulates the two gantries, which are connected to the pins of the microcomputers: rotors that magnetic fields pull
-along, wrists that bend, switches, light beams and hands.
+"""Simulates the two gantries, which are connected to the pins of the microcomputers. Their parts are rotors that
+magnetic fields pull along, wrists that bend, switches, light beams and hands.
 
 The fields of all motors are computed in advance from the pulse trains of their firmware, as tables with one row per
-millisecond. The physics follows these tables. In each millisecond, one matrix product and one comparison show whether
-a force on a wrist has crossed its threshold, a switch has changed, or a rotor has slipped. Other code runs only in a
-millisecond with such an event.
+millisecond. The physics follows these tables. There are three kinds of events: a force on a wrist crosses its
+threshold, a switch changes, or a rotor slips. In each millisecond, one matrix product and one comparison show whether
+an event has occurred. Other code runs only after an event.
 """
 
 import math
@@ -249,7 +249,9 @@ class Gantries(Plant[GantryMemory]):
 
     @property
     def counting(self) -> tuple[bool, ...]:
-        """For each axis, False while it searches for the end of its rail. The axis counts from this end."""
+        """One value for each axis: False while the axis searches for the end of its rail. Later, the axis counts its
+        steps from this end.
+        """
         return tuple(motor is not None and motor.memory.state in COUNTING for motor in self._motors)
 
     @property
@@ -435,8 +437,8 @@ def _sensors(model: mujoco.MjModel, kind: mujoco.mjtSensor, names: Sequence[str]
 
 
 def _gauges(model: mujoco.MjModel, rig: Rig, gain: Array, left: float) -> tuple[Table, Array]:
-    """Return the matrix, shape (axes, readings), and the offset, shape (axes,), that convert the readings of the
-    scene's sensors to the force along each axis. An axis without a wrist has the force 0.
+    """Return a matrix, shape (axes, readings), and an offset, shape (axes,). They convert the readings of the scene's
+    sensors to the force along each axis. An axis without a wrist has the force 0.
 
     A strain gauge measures the force in the wrist. A part of this force accelerates the hand itself. The signal of an
     accelerometer cancels this part, so that the sum of both signals is the external force. A fraction of the force of

@@ -26,7 +26,9 @@ class GantryMemory(MutableRecord, kw_only=True, tag="gantries"):
 
     @classmethod
     def of(cls, axes: int, hands: int) -> "GantryMemory":
-        """Return the state that a machine with these numbers of axes and hands has when the power comes on."""
+        """Return the state of a machine when its power comes on. `axes` and `hands` are the numbers of its axes and
+        hands.
+        """
         return cls(
             slipped=[0] * axes, holds=[1.0] * axes, peaks=[0.0] * axes, missed=[0] * axes,
             gaps=[1.0] * hands, grips=[False] * hands,

@@ -1,4 +1,6 @@
-"""The worlds of the gantries: errors of switches, motors, wrists, beams and clocks, generated from a seed."""
+"""The worlds of the gantries. The seed of a world determines the errors of the switches, motors, wrists, beams and
+clocks.
+"""
 
 from collections.abc import Sequence
 from dataclasses import dataclass

@@ -1,4 +1,6 @@
-"""The pieces of the hand-over: round blocks, each with a pin that stands out of its top until it is pressed in."""
+"""The pieces of the hand-over are round blocks. A pin stands out of the top of each block until arm 2 presses the pin
+in.
+"""
 
 from typing import Final
 
@@ -34,7 +36,7 @@ class Piece(Record, frozen=True, kw_only=True):
 
 
 def pin(name: str) -> str:
-    """Return the name of the joint of the pin of a piece."""
+    """Return the name of the joint with which a piece's pin moves."""
     return f"{name}.pin"
 
 

@@ -1,5 +1,5 @@
-"""The hand-over as a task: the referee checks that the pieces counted by the program are finished and at their places,
-and that the arms have not touched each other.
+"""The task of the hand-over. The referee checks that the pieces that the program counted are finished and at their
+places. It also checks that the arms have not touched each other.
 """
 
 from __future__ import annotations

@@ -1,5 +1,5 @@
-"""The pieces of the insertion: square pegs that stand in front of a rack, each rotated by up to 20 degrees, and plates
-that each have a square hole.
+"""The pieces of the insertion are square pegs, and plates with one square hole each. The pegs stand in front of a
+rack, and each peg is rotated by up to 20 degrees.
 
 A plate is held only by its friction on the board, and a peg only by the friction of the fingers.
 """

@@ -1,5 +1,5 @@
-"""The insertion as a task: the referee checks that the pegs counted by the program are in their holes, that no plate
-has moved, that no force was too great, and that no motor has lost a step.
+"""The task of the insertion. The referee checks that the pegs that the program counted are in their holes. It also
+checks that no plate has moved, no force was too great, and no motor has lost a step.
 """
 
 from __future__ import annotations

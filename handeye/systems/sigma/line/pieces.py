@@ -52,12 +52,12 @@ class LinePiece(Record, frozen=True, kw_only=True):
 
 
 def pin(piece: str, which: str) -> str:
-    """Return the name of the joint of a pin of a piece."""
+    """Return the name of the joint with which a pin of a piece moves."""
     return f"{piece}.{which}"
 
 
 def drawn(world: GantryWorld, count: int) -> tuple[LinePiece, ...]:
-    """Return the pieces of a world, which fill the cells of the tray in order. Raises BadArgument if there are too
+    """Return the pieces of a world. The pieces fill the cells of the tray in order. Raises BadArgument if there are too
     many pieces.
     """
     if not 1 <= count <= MOST:

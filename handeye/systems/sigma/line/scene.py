@@ -56,7 +56,7 @@ def _text() -> str:
 
 
 def _part(text: str, name: str) -> str:
-    """Return the content of an element of a scene; empty if the scene has no such element."""
+    """Return the content of the scene's element `name`; empty if the scene does not have this element."""
     found = re.search(rf"<{name}>(.*?)</{name}>", text, re.DOTALL)
     return found[1] if found else ""
 

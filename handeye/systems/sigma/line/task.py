@@ -33,7 +33,9 @@ PRESSED: Final = 0.5  # mm by which a pin may still stand out
 
 
 class AssemblyLine(JobTask):
-    """A feeder brings pieces, two SUPERSIGMAs press one pin each into every piece, and a belt takes the pieces away."""
+    """A feeder brings pieces, each of two SUPERSIGMAs presses one pin into every piece, and a belt takes the pieces
+    away.
+    """
 
     name = "line"
     words = Words(product="the line", done="Each piece is finished and withdrawn.")

@@ -1,1 +1,1 @@
-"""Machines behind the bus interface that need no physics."""
+"""Machines that are simulated without physics. Programs reach them through the bus interface."""

@@ -56,6 +56,6 @@ def checked(value: float) -> float:
 
 
 def shown(value: float) -> str:
-    """Return a number in the form in which PRINT prints it."""
+    """Return a number as PRINT prints it."""
     whole = value == int(value) and abs(value) < 1e15
     return f"{value:.0f}" if whole else f"{value:.6g}"

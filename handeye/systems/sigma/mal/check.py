@@ -308,7 +308,9 @@ class _Check:
 
     @cached_property
     def _hands(self) -> int:
-        """Number of hands of the machine for which the program is written: SUPERSIGMA or the assembly line."""
+        """Number of hands of the machine for which the program is written. This machine is SUPERSIGMA or the assembly
+        line.
+        """
         moved = (axis for line in self._lines for part in within(line.statement) for axis in driven(part))
         return 6 if any(axis.text not in AXES for axis in moved) else 2
 

@@ -1,4 +1,4 @@
-"""The table of all kinds of mistakes in MAL programs, by code, each with an example text and a cure."""
+"""The table of all kinds of mistakes in MAL programs. Each kind has a code, an example text and a cure."""
 
 from typing import Final
 
@@ -28,7 +28,8 @@ CODES: Final[dict[str, Mistake]] = {
         cure="set the flag with SET in another task, or correct its name", severity="warning",
     ),
     "for-without-next": Mistake(
-        meaning="in a task, no NEXT of the same name follows a FOR", example="10 FOR I = 1 TO 4\n20 PRINT I",
+        meaning="a FOR has no later NEXT with the same variable in the same task",
+        example="10 FOR I = 1 TO 4\n20 PRINT I",
         cure="write NEXT after the lines to repeat",
     ),
     "line-missing": Mistake(
@@ -72,7 +73,7 @@ CODES: Final[dict[str, Mistake]] = {
     ),
     "return-without-gosub": Mistake(
         meaning="a task has RETURN but no GOSUB", example="10 RETURN",
-        cure="call these lines with GOSUB, or replace RETURN with END",
+        cure="call the lines before RETURN with GOSUB, or replace RETURN with END",
     ),
     "stray-character": Mistake(
         meaning="a character has no meaning in MAL", example="10 A = 5 % 2",

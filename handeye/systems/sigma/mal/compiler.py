@@ -90,7 +90,9 @@ class MalProgram:
 
     @cached_property
     def beyond(self) -> CompiledLine | None:
-        """The first line that uses an axis or hand that only the assembly line has. None if there is no such line."""
+        """The first line that needs an axis or a hand of the assembly line; None if SUPERSIGMA has every axis and hand
+        that the program uses.
+        """
         for address, each in enumerate(self.code):
             names = each.operand if isinstance(each.operand, tuple) else (each.operand,)
             if any(name in _BEYOND for name in names):

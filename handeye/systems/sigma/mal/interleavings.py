@@ -172,8 +172,8 @@ class _Search:
         )
 
     def _expanded(self, key: bytes, state: _State) -> list[tuple[Act, _State]]:
-        """Return the states that follow a state. A statement may concern only its own task. If such a statement leads
-        to a new state, only this new state is returned.
+        """Return the states that follow a state. If a statement that concerns no other task leads to a new state, only
+        this new state is returned.
         """
         if state.memory.fault is not None:
             return []
@@ -239,7 +239,7 @@ class _Search:
         self.events.clear()
 
     def _taken(self) -> _State:
-        """Return the present state, without values that do not affect what follows."""
+        """Return the present state, without the values that have no effect on later states."""
         memory = self.vm.memory
         memory.turn, memory.last, memory.printed, memory.commands, memory.questions = "", "", "", 0, 0
         for axis in [axis for axis in memory.owners if axis not in self.machine.state.moving]:
@@ -256,7 +256,7 @@ class _Search:
     # -- looking --------------------------------------------------------------------------------------
 
     def _see_events(self, key: bytes, state: _State, act: Act) -> None:
-        """Record each flag that an act sets although the flag is already set. Such an act loses a signal."""
+        """Record each flag that an act sets although the flag is already set: a signal is lost."""
         taken = {each.operand for each in self.program.code if each.op == "TAKEF"}
         for event in self.events:
             lost = (
@@ -385,8 +385,8 @@ def schedule_lines(schedule: Sequence[Act]) -> list[str]:
 
 
 def unreached_lines(program: MalProgram, result: Interleavings) -> str:
-    """Return the lines that are never executed, whatever the order of the tasks, such as `lines 40, 70 to 90`. The
-    text is empty if there are no such lines.
+    """Name the program lines that are not executed in any order of the tasks. Returns a text such as `lines 40, 70 to
+    90`, or an empty text if each line is executed in some order.
     """
     numbers, spans = [line.number for line in program.lines], list[list[int]]()
     for before, number in zip([None, *numbers], numbers, strict=False):

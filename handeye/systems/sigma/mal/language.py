@@ -43,7 +43,9 @@ class MalLanguage(OwnLanguage):
         return code_explained(word) or explained(word)
 
     def words(self, source: Source, offset: int) -> list[tuple[str, str]]:
-        """Return completions: after a line number, the statements; after a word, what may follow that word."""
+        """Return completions. After a line number, these are the statements; after a word, these are the words that
+        may follow it.
+        """
         row, column = source.position(offset)
         before = source.line(row)[: column - 1].upper()
         written = re.findall(r"[A-Z][A-Z0-9_]*|[0-9.]+|\S", before)

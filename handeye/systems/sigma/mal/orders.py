@@ -20,8 +20,8 @@ _STOPPING: Final[tuple[FindingKind, ...]] = ("deadlock", "stops")
 
 
 def problems(program: MalProgram, found: Interleavings) -> Iterator[tuple[bool, str, str]]:
-    """Yield the problems of a program, the worst problem first. Each problem is a tuple: whether the problem escapes
-    the program's notice, what happens, and an example.
+    """Yield the problems of a program, the worst problem first. Each problem is a tuple: True if the program does not
+    notice the problem, a text that says what happens, and an example.
     """
     for each in sorted(found.findings, key=lambda finding: finding.kind in _STOPPING):
         order = "; ".join(" ".join(line.split()) for line in schedule_lines(each.schedule))
@@ -36,7 +36,7 @@ def problems(program: MalProgram, found: Interleavings) -> Iterator[tuple[bool, 
 
 def order_problems(name: str, text: str) -> list[tuple[bool, str]]:
     """Return the problems that a program has if its tasks run in certain orders, the worst problem first. Each problem
-    is a tuple: whether the problem escapes the program's notice, and a sentence that describes the problem. Raises
+    is a tuple: True if the program does not notice the problem, and a sentence that describes the problem. Raises
     BadFile if the text has errors.
     """
     program = program_of(name, text)

@@ -205,9 +205,7 @@ class VirtualMachine:
     # -- turns ---------------------------------------------------------------------------------------------
 
     def _order(self) -> list[str]:
-        """Return the tasks in the order of their turns, beginning with the task after the task that had the
-        last turn.
-        """
+        """Return the tasks in the order of their next turns. The task that had the last turn comes last."""
         names = [*self.memory.tasks]
         after = names.index(self.memory.last) + 1 if self.memory.last in names else 0
         return names[after:] + names[:after]
@@ -221,7 +219,9 @@ class VirtualMachine:
         return None
 
     def goes_on(self, name: str) -> bool:
-        """End the wait of a task if its condition is met. Returns True if the task can then begin a statement."""
+        """If a task waits for a condition that is now met, end the wait. Returns True if the task can then begin a
+        statement.
+        """
         task = self.memory.tasks[name]
         if task.amid:
             if task.waits is not None and not self._operations.met(name, task, task.waits):
@@ -289,7 +289,7 @@ class VirtualMachine:
 
     def _see_aborts(self) -> None:
         """If a motor has raised the interrupt, query the motor's position. The task that moved the motor continues at
-        the line in the task's ON ABORT statement. If the task has no such statement, the program stops.
+        the line in the task's ON ABORT statement. If the task has no ON ABORT statement, the program stops.
         """
         if not self.machine.interrupt:
             return
@@ -318,7 +318,7 @@ class VirtualMachine:
         its axis was hit.
 
         If an arm was hit above its wrist, that wrist feels nothing. Therefore, while the arms are near each other, a
-        great force on one wrist makes the count of the same axis of the other arm doubtful, too.
+        great force on one wrist makes two counts doubtful: the counts of the same axis of both arms.
         """
         peaks = {axis: self._peak(name, axis) for axis in self.program.axes if int(axis[1]) in NEIGHBOURS}
         for axis, own in peaks.items():

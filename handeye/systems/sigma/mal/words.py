@@ -115,7 +115,8 @@ WORDS: Final[dict[str, Word]] = {
     ),
     "ON": Word(
         "statement", "ON ABORT [axis] GOTO line",
-        "Go to a line if a motion of this task is aborted on the named axis or, if no axis is named, on any axis.",
+        "Go to a line if a motion of this task is aborted on the named axis. Without an axis, the statement is for "
+        "all axes.",
         "10 ON ABORT GOTO 900",
     ),
     "RESUME": Word("statement", "RESUME", "Continue after the MOVE that was aborted.", "920 RESUME"),

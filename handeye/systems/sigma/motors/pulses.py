@@ -46,7 +46,8 @@ CURVES: Final = (
 
 class Train(Record, frozen=True, kw_only=True):
     """A train of pulses. A train of the kind `profile` has `steps` pulses, begins and ends at the speed `start`, and
-    does not exceed `top`. A train of the kind `stop` slows the motor down from the speed `top` until it stands.
+    does not exceed `top`. A train of the kind `stop` slows the motor down from the speed `top` until the motor stands
+    still.
     """
 
     kind: Literal["profile", "stop"] = "profile"
@@ -149,7 +150,7 @@ def _pulses(train: Train) -> Pulses:
 
 
 def _stop_times(train: Train) -> NDArray[np.float64]:
-    """Return the times of the pulses of a constant deceleration."""
+    """Return the times of the pulses of a train with constant deceleration."""
     speeds = np.sqrt(
         np.maximum(train.top**2 - 2 * train.acceleration * np.arange(1, train.steps + 1), train.start**2)
     )
@@ -176,7 +177,9 @@ def _profile_times(train: Train) -> NDArray[np.float64]:
 
 
 def _ramp_times(steps: NDArray[np.float64], start: float, peak: float, ramp: float) -> NDArray[np.float64]:
-    """Return the times of steps on a ramp from the speed `start` to `peak` that takes `ramp` seconds."""
+    """Return the times of the steps on a ramp. The ramp goes from the speed `start` to the speed `peak`, and takes
+    `ramp` seconds.
+    """
 
     def made(time: NDArray[np.float64]) -> NDArray[np.float64]:
         turned = ramp / math.pi * np.sin(math.pi * time / ramp)

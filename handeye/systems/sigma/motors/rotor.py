@@ -193,7 +193,7 @@ def _margin(forces: NDArray[np.float64], speeds: NDArray[np.float64], drive: Dri
 
 
 def lag_for(force: float, most: float) -> float:
-    """Return the lag of a rotor (steps) when it gives `force`; `most` is its greatest force."""
+    """Return the lag (steps) at which a rotor gives the force `force`. `most` is the greatest force of the rotor."""
     return math.asin(min(max(force / most, -1.0), 1.0)) / _FULL
 
 

@@ -1,4 +1,4 @@
-"""The screwdriver of arm 2 as a device of its hand microcomputer."""
+"""The screwdriver of arm 2. The hand microcomputer of arm 2 switches it as one of its devices."""
 
 from collections.abc import Sequence
 from typing import Final
@@ -37,7 +37,7 @@ class HandDriver(Mechanism[DriverState]):
         return _SPEEDS.get(self._state.value, 0.0)
 
     def actuated(self, number: int, devices: Sequence[int]) -> None:
-        """Set the screwdriver to the value that its hand microcomputer gives out."""
+        """Set the screwdriver to the value that the hand microcomputer of arm 2 gives out."""
         if number == _HAND:
             self._state = DriverState(value=devices[DEVICES["DRIVER"]])
 

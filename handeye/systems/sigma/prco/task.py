@@ -1,5 +1,5 @@
-"""The plate of the pump as a task. The referee measures the true depth and clamping force of each screw, the depth
-of each pin, and the seat of the plate, and compares its own counts with the program's counts.
+"""The plate of the pump as a task. The referee measures the true depth and clamping force of each screw, the depth of
+each pin, and the seat of the plate. It also compares its own counts with the program's counts.
 """
 
 from __future__ import annotations

@@ -1,2 +1,3 @@
-"""MAL programs as runs, which can be stepped by statement, saved, resumed, and taken back to earlier states of
-all tasks."""
+"""Runs of MAL programs. A run can be stepped one statement at a time, saved and resumed, and taken back to an earlier
+state of all tasks.
+"""

@@ -20,7 +20,7 @@ ENDED: Final = "all tasks have ended"
 
 
 class BusRun(Record, frozen=True, kw_only=True):
-    """The results of a program on the bus."""
+    """The results of running a program on the bus."""
 
     completed: bool
     message: str  # why the program did not finish; empty if it did

@@ -182,7 +182,7 @@ class RunningMal(NumberedRun):
         self._call()
 
     def type_line(self, text: str, task: str) -> None:
-        """Give the typed number to the task that waits for one."""
+        """Give the typed number to the task that waits for a number."""
         self.vm.type_number(text, task)
         state = self._state
         state.stopped, state.onward = None, None

@@ -91,7 +91,7 @@ def palletise(
     json: Json = False,
     kept: KeptOptions = NOTHING,
 ) -> int:
-    """Move a stack of blocks into a pallet, and back. This is the second example of TRIG's paper, with physics, in a
+    """Move a stack of blocks onto a pallet, and back. This is the second example of TRIG's paper, with physics, in a
     random world.
 
     A simulated person types the 26 lines of the example into a new editor, and teaches positions with errors of about

@@ -1,8 +1,8 @@
 """The user interface with a full screen: live displays, and keys for the teach box.
 
 The session runs in a thread of its own, so that the screen can read keys while the arm moves. Only one thread at a
-time may read the program, and this thread draws the displays. While the session waits, it is the screen's thread.
-While the session works, it is the session's thread.
+time may read the program and draw the displays: the screen's thread while the session waits, and the session's thread
+while the session works.
 """
 
 from collections import deque

@@ -33,7 +33,7 @@ class SeenTable(Tabletop):
 
     @abstractmethod
     def photograph(self, width: int, height: int) -> "Photograph":
-        """Return a photograph of arm and table. The program never sees it."""
+        """Return a photograph of the arm and the table. The program never sees this photograph."""
 
 
 def open_bench(name: Literal["purbrick"]) -> "tuple[TrigArm, SeenTable]":

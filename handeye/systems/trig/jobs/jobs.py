@@ -1,4 +1,4 @@
-"""The paper's two examples as jobs, which are taught line by line in a world, executed, and judged."""
+"""The paper's two examples as jobs. A job is taught line by line in a world, then executed and judged."""
 
 import math
 import re

@@ -136,7 +136,7 @@ def _ends_at(seen: InitialScene, stood: ObservedScene, name: str) -> Finding:
 
 
 def lay(table: BlockTable, script: str) -> None:
-    """Prepare a table as described by the lines of a script that concern the table."""
+    """Prepare a table. A script describes the table in some of its lines; this function reads only these lines."""
     for line in map(stripped, script.splitlines()):
         if line.startswith(MARK):
             arrange(table, line)

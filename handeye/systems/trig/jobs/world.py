@@ -1,4 +1,6 @@
-"""The worlds of the block bench: errors of teaching, of the machine and of block poses, generated from a seed."""
+"""The worlds of the block bench. The seed of a world determines the errors of the teaching, of the machine and of the
+blocks' poses.
+"""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -109,8 +111,9 @@ _MAX_SIGMAS: Final = 2.0  # people notice and correct larger errors
 
 @dataclass(frozen=True, slots=True)
 class BlocksWorld:
-    """A world of the block bench. A world without a specification has no errors. Each number is drawn from a stream
-    of its own, which is selected by the number's name."""
+    """A world of the block bench. A world without a specification has no errors. Each number has its own random
+    stream, and the number's name selects this stream.
+    """
 
     spec: WorldSpec | None = None
 

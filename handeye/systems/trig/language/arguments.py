@@ -36,7 +36,7 @@ class Arguments:
 
 def read_arguments(usage: str, takes: tuple[Kind, ...], needs: int, rest: str) -> Arguments:
     """Parse arguments of these kinds. `needs` is the number of required arguments, which come first. Raises
-    BadArgument with a message that shows `usage`.
+    BadArgument if the arguments are wrong. Its message shows `usage`.
     """
     given = Arguments()
     words = [rest] if takes and takes[0] in ("file", "vector") and rest else rest.split()

@@ -1,4 +1,4 @@
-"""Drives a machine with axes as a TRIG arm. Moves are sequences of set-points; guarded moves use the finger
+"""Lets a machine with axes serve as a TRIG arm. Moves are sequences of set-points; guarded moves use the finger
 that senses force.
 """
 
@@ -49,7 +49,7 @@ class ArmMemory(Record, frozen=True, kw_only=True):
 
 
 class AxesArm(TrigArm):
-    """The six axes of a machine (X, Y, Z, roll, pitch and yaw) and its hand, as a TRIG arm."""
+    """A TRIG arm that consists of the six axes (X, Y, Z, roll, pitch and yaw) and the hand of a machine."""
 
     def __init__(self, axes: Axes, clock: Clock, limits: HandlingLimits, *, ready: bool = False) -> None:
         """Take the arm. If the arm is not `ready`, open its hand."""

@@ -65,7 +65,7 @@ def stripped(line: str) -> str:
 
 
 def command_of(word: str) -> TrigCommand:
-    """Return the command for a word in upper or lower case. Raises NoSuchName if there is no such command."""
+    """Return the command for a word in upper or lower case. Raises NoSuchName if the word is not a command."""
     upper = word.upper()
     command = COMMANDS.get(SYNONYMS.get(upper, upper))
     if command is not None:
@@ -105,7 +105,7 @@ class Script(Desk):
         slip: Callable[[int], float] = lambda _: 0.0,
     ) -> None:
         """Prepare to read `lines`. `slip` returns the teaching error (m) of a jog of X, Y or Z; its argument is the
-        number of such jogs that came before.
+        number of earlier jogs of X, Y or Z.
         """
         self._lines, self._halted = enumerate(lines, 1), halted
         self._told, self._slip, self._jogs = tell, slip, 0
@@ -113,7 +113,7 @@ class Script(Desk):
         self.number = 0  # number of the line read last, from 1
 
     def next_line(self) -> str | None:
-        """Return the next line that is not empty, or None if there is no such line."""
+        """Return the next line that is not empty, or None at the end of the text."""
         for number, line in self._lines:
             self.number = number
             if text := stripped(line):

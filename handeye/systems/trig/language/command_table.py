@@ -51,8 +51,8 @@ TABLE: Final = (
     TrigCommand(usage="GOUNGRASP", group=ARM, act=arm_commands.open, help="open the hand"),
     TrigCommand(
         usage="M [[-]POS [n|g]]", group=STEPS, takes=("signed", "branch"), act=step_commands.move(None),
-        help="move to a position; if the position is new, you teach it, and it becomes absolute or relative like "
-        "the position of the last move",
+        help="move to a position; if the position is new, you teach it, and it becomes absolute or relative, like "
+        "the position of the move above",
     ),
     TrigCommand(
         usage="MA [POS [n|g]]", group=STEPS, takes=("position", "branch"), act=step_commands.move("absolute"),

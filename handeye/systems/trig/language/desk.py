@@ -88,8 +88,9 @@ def yes(word: str) -> bool:
 
 
 def buttons(line: str) -> list[Button]:
-    """Parse actions on the teach box in the form that scripts use, such as `X -30 Z BY 12 RECORD`, in mm and
-    degrees."""
+    """Parse a script's line with actions on the teach box, such as `X -30 Z BY 12 RECORD`. Its numbers are in mm and
+    degrees.
+    """
     found: list[Button] = []
     words = deque(line.upper().split())
     while words:
@@ -146,7 +147,7 @@ class Tabletop(ABC):
 
 def arrange(table: Tabletop, line: str) -> str:
     """Execute a line that describes the table. Returns a sentence that says what is then on the table. Raises
-    BadArgument.
+    BadArgument if the line does not describe a table.
     """
     words = line.removeprefix(MARK).upper().split()
     match words:

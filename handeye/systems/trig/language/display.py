@@ -1,10 +1,11 @@
 """Draws the two displays of a program, which share a layout.
 
-A chain of steps is a column. The normal son of a guarded step stands below it, in the same column; the guarded son
-begins a column farther right, one row below. The lines that lead to these columns never cross, because the chains of
-later guarded steps are placed first. The full display shows the program in miniature: one character per step, with the
-active step in brackets. In the full display, a chain runs from left to right, because a screen is wider than high. The
-partial display shows the active step and the steps around it, one row per step, in as much detail as fits.
+A chain of steps is a column. A guarded step has two sons. The normal son stands below the step in the same column. The
+guarded son is one row below the step too, but it begins a column farther right. The lines that lead to these columns
+never cross, because the chains of later guarded steps are placed first. The full display shows the program in
+miniature: one character per step, with the active step in brackets. In the full display, a chain runs from left to
+right, because a screen is wider than high. The partial display shows the active step and the steps around it, one row
+per step, in as much detail as fits.
 """
 
 from dataclasses import dataclass, field
@@ -29,7 +30,7 @@ from handeye.systems.trig.language.styled import UNICODE, Line, Style, Symbols, 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Cell:
     """A step at its place on the display, or a link to a step whose place is elsewhere. For the first step of a
-    branch, `branch` is `n` (normal) or `g` (guarded); for all other steps, it is empty.
+    branch, `branch` is `n` (normal) or `g` (guarded). For all other steps, `branch` is empty.
     """
 
     row: int
@@ -51,8 +52,8 @@ class Elbow:
 @dataclass(slots=True)
 class _Chain:
     """A chain of steps, with the chains to its right. The keys of `hung` and `shift` are the rows of the guarded
-    steps. For each such step, `hung` gives the chain that begins with the guarded son of the step, and `shift` gives
-    the number of columns from the step to that chain.
+    steps. For each such step, `hung` gives the chain that begins with the step's guarded son. `shift` gives the number
+    of columns from the step to that chain.
     """
 
     items: list[tuple[Node, bool, str]] = field(default_factory=list)
@@ -109,7 +110,7 @@ def _chains(graph: Graph, *, top: bool) -> list[_Chain]:
 
 
 def _is_link_behind(graph: Graph, id: int) -> bool:
-    """Return True if a link leads from a node, possibly through bloops, to a step."""
+    """Follow the bloops that begin at node `id`. Return True if a link leads out of one of them."""
     while graph[id].type == "bloop":
         if graph[id].links:
             return True
@@ -226,7 +227,7 @@ def step_words(graph: Graph, positions: Positions, cell: Cell, symbols: Symbols)
 
 
 def loop_words(graph: Graph, node: Node, symbols: Symbols) -> str:
-    """Return a loop in the form in which users type it: the target step and the count."""
+    """Return a loop as users type it: the target step and the count."""
     target = graph.target(node)
     name = UNNAMED if target is None else target.name or UNNAMED
     return f"LOOP {_cut(name, symbols)} {node.wanted}"

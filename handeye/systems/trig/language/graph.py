@@ -1,11 +1,11 @@
-"""The graph of a program's steps, with its loops and deletions. Each step has one or two sons, which are the steps
-that may follow it, and any number of fathers, from which it is reached.
+"""The graph of a program's steps, with its loops and deletions. The sons of a step are the one or two steps that may
+follow it. Its fathers are the steps that lead to it; their number is not limited.
 
 One of the edges that lead to a step is the step's own edge, which determines where the step is drawn. All other edges
 to the step are links. Together, the steps' own edges form a tree that starts at the top and contains every step. A
-loop has a partner (bloop) above its target step, so that the loop can also be reversed. If several loops return to one
-step, the nearest loop below the step owns the nearest bloop above the step. The order in which the loops were made
-does not matter.
+loop has a partner, called a bloop, above its target step. The bloop is needed to run the loop backwards. If several
+loops return to one step, the nearest loop below the step owns the nearest bloop above the step. The order in which the
+loops were made does not matter.
 """
 
 from collections import deque
@@ -58,7 +58,7 @@ class Node:
 
     @property
     def recent_father(self) -> int:
-        """The father that was active last or, if that is unknown, the newest father."""
+        """The father that was active most recently. If that father is unknown, the newest father."""
         if self.last_father in self.fathers:
             return self.last_father
         return self.fathers[-1] if self.fathers else NONE
@@ -150,7 +150,7 @@ class Graph:
         return Node(id=self._next - 1, type=type, sons=[NONE, NONE] if type == "guarded" else [NONE])
 
     def attach(self, father: int, branch: int, son: int, *, link: bool = False) -> None:
-        """Make the node `son` the son of the node `father` on a branch, in place of the present son on this branch."""
+        """Make the node `son` the son of the node `father` on a branch. It replaces the present son on this branch."""
         node = self[father]
         before, node.sons[branch] = node.sons[branch], son
         node.links.discard(branch)
@@ -174,7 +174,7 @@ class Graph:
         self.attach(node.id, 0, son)
 
     def insert_above(self, below: int, node: Node) -> None:
-        """Insert a node between another node and all its fathers, including links."""
+        """Insert `node` above node `below`. All edges that led to `below`, including links, then lead to `node`."""
         self.nodes[node.id] = node
         for father, branch in self.edges_into(below):
             self.attach(father, branch, node.id, link=branch in self[father].links)
@@ -204,7 +204,9 @@ def insert_loop(graph: Graph, after: int, branch: int, target: int, wanted: int)
 
 
 def _innermost(graph: Graph, target: int, loop: Node) -> int:
-    """Return the node above which the bloop of a loop is inserted: the bloop of a nearer loop, or the target."""
+    """Return the node above which the bloop of `loop` is inserted. If other loops are nearer to the target, this node
+    is the highest of their bloops. If no loop is nearer, it is the target.
+    """
     below = graph.distances(target)
     place, bloops = target, _bloops_above(graph, target)
     for bloop in bloops:

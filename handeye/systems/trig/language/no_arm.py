@@ -1,9 +1,9 @@
 """An imaginary arm, which reaches every place immediately and exactly.
 
 With imaginary blocks, this arm lets a user try out a program without a real arm. The blocks do not fall, and exert a
-force only on their upper sides. In a guarded move whose force vector includes upward force, a closed hand stops on
-top of a block, and a block in the hand stops on another block or on the table. A block passes between the fingers of
-an open hand. All other moves pass through blocks.
+force only on their upper sides. Only a guarded move whose force vector has an upward component can meet a block or the
+table; all other moves pass through blocks. In this guarded move, a closed hand stops on top of a block, but a block
+passes between the fingers of an open hand. A block in the hand stops on another block or on the table.
 """
 
 import math

@@ -1,5 +1,5 @@
-"""Places of the hand, with six components along and about the arm's axes; and positions, which are places that a
-program names.
+"""Places and positions of the hand. A place has six components: three along the arm's axes and three about them. A
+position is a place that has a name in a program.
 """
 
 import math

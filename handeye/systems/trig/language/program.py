@@ -16,7 +16,7 @@ NOWHERE: Final = Place()
 
 
 class RecordedStep(NamedTuple):
-    """The state before an executed step, from which the step can be reversed."""
+    """The state before an executed step. It contains what is needed to reverse the step."""
 
     node: int
     place: Place  # of the arm
@@ -79,12 +79,12 @@ class TrigProgram:
         self.trail.append(done)
 
     def pstack(self, id: int) -> list[Place]:
-        """Return the places of the arm before each execution of a step."""
+        """Return one place for each execution of a step: the arm's place before it."""
         return [done.place for done in self.trail if done.node == id]
 
     def above(self, id: int) -> int:
-        """Return the step above a node. The way up follows the most recent father of each node. If there is no step
-        above the node, return the top.
+        """Return the step above a node. If a node has several fathers, the most recent one counts as the node above
+        it. If there is no step above the node, return the top.
         """
         id = self.graph[id].recent_father
         while id not in (TOP, NONE) and not self.graph[id].shown:
@@ -92,7 +92,7 @@ class TrigProgram:
         return TOP if id == NONE else id
 
     def begin(self) -> None:
-        """Reset positions, counts and trail, as is done before every run from the top."""
+        """Reset positions, counts and trail before a run from the top."""
         for position in self.positions.values():
             position.data = position.init
         for node in self.graph.nodes.values():

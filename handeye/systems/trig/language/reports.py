@@ -38,7 +38,9 @@ class TrigReport(Record, frozen=True, kw_only=True):
 
 
 def report(session: Session, ways: Sequence[RunResult]) -> TrigReport:
-    """Return the record of runs, and of the final state of arm and blocks."""
+    """Return a record of the run forwards and, if `ways` has a second result, of the run backwards. The record also
+    contains the final state of arm and blocks.
+    """
     told = [RunLeg(steps=ran.steps, end=ran.end, obstacle=ran.obstacle) for ran in ways]
     known = session.program.positions
     blocks = session.arm.blocks if isinstance(session.arm, NoArm) else ()

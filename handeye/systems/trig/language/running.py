@@ -2,9 +2,9 @@
 
 A run goes from each step to one of its sons; a loop returns to its bloop. A reversal follows the trail, the last step
 first, regardless of later edits and of the cursor. A reversal brings the arm back to the start of each move, the hand
-to its earlier state, and positions and counts to their old values. Where the hand closed on an object or released it,
-the fingers must have the same gap again. An object that was taken up must find support again. An object that a guarded
-step met must still be there.
+to its earlier state, and positions and counts to their old values. When a grasp or a release is reversed, the gap
+between the fingers must be the same as during that step. An object that was taken up must find support again. An
+object that a guarded step met must still be there.
 """
 
 import math
@@ -55,7 +55,9 @@ def _way_back(program: TrigProgram, done: RecordedStep, arm: TrigArm, halted: Ha
 
 
 def _took_up(program: TrigProgram) -> bool:
-    """Return True if a grasp was the last action of the hand before the last move."""
+    """Return True if the step before the last move was a grasp. Steps that neither move the arm nor use the hand do
+    not count.
+    """
     for done in islice(reversed(program.trail), 1, None):
         node = program.graph.nodes.get(done.node)
         if node is None or node.type in ("normal", "guarded", "ungrasp"):
@@ -102,7 +104,7 @@ def _off_hold(kept: float, arm: TrigArm) -> HoldOff | None:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RunResult:
-    """How a run ended: the number of executed steps, and the reason for the end."""
+    """The result of a run: the number of executed steps, and the reason for the end."""
 
     steps: int  # executed or reversed
     end: Literal["count", "none", "halted", "beginning", "forgotten", "deleted", "stopped"]

@@ -76,7 +76,7 @@ def hand(closed: bool) -> Acted:
 
 
 def save(session: Session, given: Arguments) -> None:
-    """SAVPOS: set a position to the arm's place, both now and whenever the step is executed."""
+    """SAVPOS: set a position to the arm's present place, and add a step that does the same whenever it is executed."""
     branch = session.open_branch(given.branch)
     name, here = given.position or "", session.arm.here()
     position = session.program.positions.get(name)
@@ -95,7 +95,9 @@ def save(session: Session, given: Arguments) -> None:
 
 
 def check_no_opposite(session: Session, name: str) -> None:
-    """Raise Refused if a step uses the opposite of the position `name`. Such a position cannot become absolute."""
+    """Raise Refused if a step uses the opposite of the position `name`. A position cannot become absolute while its
+    opposite is in use.
+    """
     if any(node.negate for node in session.program.users(name)):
         raise Refused(f"{name} cannot become absolute, because a step goes to -{name}; D deletes the step")
 
@@ -115,7 +117,7 @@ def loop(session: Session, given: Arguments) -> None:
 
 
 def target_hint(session: Session) -> str:
-    """Return a hint on which step a loop can return to."""
+    """Return a hint that helps the user to name the step to which a loop returns."""
     first = session.program.first
     if first == NONE:
         return "the program is empty"
@@ -142,7 +144,7 @@ def link(session: Session, given: Arguments) -> None:
 
 
 def _add(session: Session, node: Node, branch: int) -> None:
-    """Add an executed step below the active step, and make the new step the active step."""
+    """Add `node`, a step that was just executed, below the active step. The new step becomes the active step."""
     program = session.program
     program.graph.insert(program.cursor, branch, node)
     program.put_cursor(node.id)
@@ -280,7 +282,7 @@ def _kept_branch(session: Session, given: Arguments, node: Node) -> int:
 
 
 def _reached_otherwise(program: TrigProgram, node: Node, branch: int, entry: int) -> bool:
-    """Return True if a node could still be reached from the top if one edge were removed."""
+    """Return True if the node `entry` can be reached from the top without the edge from `node` to it."""
     node.sons[branch] = NONE
     reached = entry in program.graph.distances(TOP)
     node.sons[branch] = entry

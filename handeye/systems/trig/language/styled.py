@@ -1,4 +1,6 @@
-"""Styled text for terminals with colours, and drawing characters with substitutes for terminals that lack them."""
+"""Styled text for terminals with colours, and drawing characters. If a terminal cannot show the drawing characters,
+ASCII characters replace them.
+"""
 
 from collections.abc import Sequence
 from dataclasses import dataclass

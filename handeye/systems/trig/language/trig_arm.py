@@ -112,8 +112,9 @@ class TrigArm(ABC):
 
     @abstractmethod
     def feel(self, goal: Place, vector: Vector3, threshold: float, halted: Halted) -> Arrival:
-        """Go slowly and straight to a place. Stop if the force on the finger, as the dot product with `vector`, exceeds
-        a threshold (N)."""
+        """Go slowly and straight to a place. Stop if the dot product of `vector` and the force on the finger exceeds a
+        threshold (N).
+        """
 
     @property
     @abstractmethod
@@ -122,9 +123,9 @@ class TrigArm(ABC):
 
     @abstractmethod
     def back(self, goal: Place, halted: Halted, met: float = 0.0) -> Literal["halted"] | Obstacle | None:
-        """Return to an earlier place. `met` is the force (N) that the arm met on its way from that place; the force
-        limit of the return is 1.5 times `met`, and at least the usual limit of the arm. Returns None if the arm
-        reached the place. If the arm stopped before the place, returns the reason.
+        """Return to an earlier place. `met` is the greatest force (N) that the arm met when it moved away from the
+        earlier place. The force limit of the return is 1.5 times `met`, or the usual limit of the arm if this limit is
+        greater. Returns None if the arm reached the place. If the arm stopped before the place, returns the reason.
         """
 
     @abstractmethod
@@ -149,7 +150,7 @@ class TrigArm(ABC):
                 raise OutOfTravel(axis, value, lower, upper)
 
     def within_travel(self, goal: Place) -> Place:
-        """Return the nearest place within the arm's travel, axis by axis."""
+        """Return `goal` with each component limited to the travel of its axis."""
         return Place(
             *(min(max(a, lower), upper) for a, (lower, upper) in zip(goal, self.travel, strict=True))
         )

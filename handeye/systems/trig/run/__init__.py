@@ -1,3 +1,3 @@
-"""TRIG programs as runs: a program is taught in the world of the run and executed step by step. Then the arm executes
-the program backwards, which undoes its work.
+"""TRIG programs as runs: a program is taught in the world of the run and executed step by step. Then the arm undoes
+its work: it executes the program backwards.
 """

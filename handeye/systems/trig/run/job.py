@@ -62,7 +62,9 @@ def setup_of_job(name: JobName, world: WorldSpec, blocks: int | None) -> Checkpo
 
 
 def program_plan(task: str, name: str, text: str, variant: str = "") -> TaughtPlan:
-    """Return the plan with which a user's script does a job. TRIG's jobs have no variants."""
+    """Return the plan of a run in which the user's script `text` teaches the job `task`. TRIG's jobs have no
+    variants.
+    """
     return TaughtPlan(job=next(job for job in JOBS if job == task), script=text)
 
 
@@ -97,7 +99,9 @@ def carry_out(
 
 
 def carried_out(runner: Runner, *, after: int | None = None) -> JobReport:
-    """Execute a job without a folder. `after` has the same meaning as for `carry_out`."""
+    """Execute a job, without saving it in a folder, and return its result. `after` has the same meaning as for
+    `carry_out`.
+    """
     pause = carry_out(runner, after=after)
     return account(runner, pause, outcome(runner, pause, Meter(), judged=True), after=after)
 
@@ -157,8 +161,8 @@ _OUTCOMES: Final[Mapping[int, Outcome]] = {0: "right", 1: "stopped", 3: "silent"
 
 
 def _way(runner: Runner, pause: Pause) -> tuple[RunLeg | None, str]:
-    """Return the part of the job that has just ended, either the program or its reversal, and a sentence on how this
-    part ended. The part is None if the arm refused a step.
+    """Return a record of the part of the job that has just ended, and a sentence on how this part ended. The part is
+    either the program or its reversal. The record is None if the arm refused a step.
     """
     system, state = job_of(runner), job_of(runner).state
     if pause.kind in ("operator", "trouble") and state.obstacle is None:

@@ -71,13 +71,13 @@ def tried(blocks: int, interrupt: bool, seed: int, world: WorldSpec) -> JobRepor
 
 
 def broken_off_after(seed: int, blocks: int) -> int:
-    """Return after how many steps the job is reversed in the world of a seed. The number is random."""
+    """Return the number of steps after which the job is reversed in the world of a seed. The number is random."""
     most = 3 + STEPS * min(blocks, PLACES)
     return int(random_numbers(seed, "pallet.interrupt").integers(1, most, endpoint=True))
 
 
 def _more(rows: Sequence[PalletRow]) -> dict[str, object]:
-    """Return the largest value of each finding, and the arm's time."""
+    """Return the largest value of each finding in all trials, and the total time (s) that the arm worked."""
     most: dict[str, float] = {}
     for row in rows:
         for name, value in row.measures.items():

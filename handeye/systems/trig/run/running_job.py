@@ -140,7 +140,7 @@ class RunningJob(RunningSystem):
         ]
 
     def _ask(self) -> bool:
-        """Check for a halt during teaching; raises Halted."""
+        """Raise Halted if the user wants to halt during teaching. If not, return False."""
         if self._around.halt():
             raise Halted
         return False
@@ -223,7 +223,7 @@ class RunningJob(RunningSystem):
         return None if ran.obstacle is None else told_obstacle(ran.obstacle)
 
     def _stand_before(self, number: int) -> None:
-        """Update the state after a step was reversed: either the step before it is the next to reverse, or the
+        """Update the state after a step was reversed. Either the state then names the next step to reverse, or the
         reversal is complete.
         """
         state, program = self._state, self.job.session.program
@@ -339,8 +339,8 @@ class RunningJob(RunningSystem):
         self._state.note(self.job.session.program, self.job.arm.memory)
 
     def _hand(self) -> tuple[Vector3, float]:
-        """Return the position of the hand relative to the platter, as the potentiometers measure it (m), and the
-        gap between the fingers (m).
+        """Return two sensed values: the position of the hand relative to the platter (m), and the gap between the
+        fingers (m). Potentiometers measure the position.
         """
         x, y, z = (round(float(value), 6) for value in self.job.axes.read().q[:3])
         return (x, y, z), round(self.job.arm.gap, 6)
@@ -351,7 +351,7 @@ class RunningJob(RunningSystem):
         return np.array([channels[part] for part in PURBRICK.force.parts])
 
     def _look_on(self) -> None:
-        """Report every period of the machine from now on."""
+        """From now on, report each period of the machine to the observers of the run."""
         self._laid = True
         self._sensed = sense_axes([self.job.axes])
         self.job.bench.after_period.append(self._tell)

@@ -63,7 +63,9 @@ class TaughtState(SystemState, kw_only=True):
         self.at = executed[-1].step
 
     def executed(self, plan: TaughtPlan) -> list[CompletedStep]:
-        """Return the executed steps that have not been reversed, with their stage."""
+        """Return the executed steps that have not been reversed. The first one is marked as the step that enters the
+        stage.
+        """
         numbers = listing(plan).numbers
         found = [numbers[done.node] for done in self.trail if done.node in numbers]
         return [CompletedStep(step=number, enters=not before) for before, number in enumerate(found)]
@@ -80,7 +82,7 @@ class TaughtState(SystemState, kw_only=True):
         self.arm = arm
 
     def check(self, program: TrigProgram, steps: int) -> None:
-        """Raise BadFile unless the state fits a program with this many steps."""
+        """Raise BadFile unless the state fits a program with the given number of steps."""
         nodes, names = {*program.graph.nodes}, {*program.positions}
         ids = {self.came, self.cursor, *self.fathers, *self.rounds, *(done.node for done in self.trail)}
         ids |= {*self.fathers.values()} - {NONE}

@@ -1,4 +1,6 @@
-"""TRIG as a system: what a TRIG run can do, in which words a run is described, and which files a run leaves."""
+"""TRIG as a system of handeye. This module defines what a TRIG run can do, how messages describe a run, and which
+files a run leaves.
+"""
 
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
@@ -38,7 +40,10 @@ class TaughtSystem(System):
         places=("PLACE is a line number, a step's name, or a kind of step (LOOP, GRASP). WHAT is one of",),
         units="millimetres, degrees, newtons",
         commands={
-            "proceed": "repeat the step that called the operator, forwards or backwards",
+            "proceed": (
+                "repeat the step that called the operator; while the program runs backwards, try again to undo "
+                "this step"
+            ),
             "retry": "the same as `proceed`",
             "skip": "end the program here; not possible while the program runs backwards",
         },

@@ -127,8 +127,9 @@ def disturbances() -> tuple[Disturbance, ...]:
 
 
 def bystanders(truth: Truth) -> dict[str, Array]:
-    """Return the positions (m) of the parts, except screws, that lie on the table or belt and that no finger
-    touches."""
+    """Return the positions (m) of the parts that lie on the table or belt and are not touched by a finger. Screws are
+    left out.
+    """
     model, data = truth.model, truth.data
     bodies = model.geom_bodyid[data.contact.geom]
     holding = np.isin(bodies, [model.body(name).id for name in _FINGERS])

@@ -39,8 +39,7 @@ PartFault = PumpFault[Change]
 
 @cache
 def part_faults(screws: int) -> tuple[PartFault, ...]:
-    """Return all faults of the parts of a pump with this number of screws, in the order in which they are
-    listed."""
+    """Return all faults of the parts of a pump with the given number of screws, in the order of the catalogue."""
     return (
         *_base(), *_gasket(), *_top(), *_pins(), *_screws(screws), *_holes(screws), *_stations(screws),
         *_screwdriver_and_light(),
@@ -156,7 +155,7 @@ def _top() -> Iterator[PartFault]:
             errors=(WRONG_HEIGHT, SEARCH_EXHAUSTED),
             calls=(detect.NOT_FLAT, "PIN {number} DOES NOT STAND: THE TOP HAS DRAWN IT OUT", detect.ON_PINS),
             stages=(detect.PUT_ON_TOP,),
-            harmless="Fingers that close on two flats set the top straight.",
+            harmless="When the fingers close on the two flats of the top's hub, they straighten the top.",
         ),
         Size(unit="mm", usual=6.0, limits=(0.1, 15.0)),
     )  # fmt: skip
@@ -303,8 +302,8 @@ def slipping_screws(faults: Sequence[Fault], count: int) -> frozenset[int]:
 
 
 def _numbered(faults: Sequence[Fault], thing: str, what: str) -> frozenset[int]:
-    """Return the numbers in the names of faults, if the names have the form THING.NUMBER.WHAT. The returned numbers
-    are counted from 0.
+    """Return the numbers from those names of faults that have the form THING.NUMBER.WHAT, with the given THING and
+    WHAT. The returned numbers are counted from 0.
     """
     names = (fault.name.split(".") for fault in faults)
     return frozenset(

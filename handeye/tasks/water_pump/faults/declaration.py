@@ -27,7 +27,7 @@ def declared(
     spoils: SpoiledWork | None = None,
 ) -> PumpFault[B]:
     """Declare a fault that begins during a run. By default, the fault begins with `stage`, or at the start of the run
-    if `stage` is None. Some faults alone spoil finished work; for such a fault, `spoils` is this work.
+    if `stage` is None. `spoils` is the finished work that the fault can spoil without any other fault, or None.
     """
     return PumpFault(
         name=name,

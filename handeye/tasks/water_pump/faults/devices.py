@@ -59,8 +59,8 @@ _FACTOR: Final = Size(unit="", usual=1.04, limits=(0.1, 5.0))
 _PERCENT_LEFT: Final = (0.0, 100.0)
 
 _WITHIN_AGREEMENT: Final = (
-    "Even without a fault, the two sensors of a joint may differ by up to 2 % of a long motion. A wrong factor "
-    "hardly changes a reading that is near zero."
+    "Even without a fault, the two sensors of a joint may differ by up to 2 % of a long motion. If the factor of a "
+    "sensor is wrong, readings near zero are still nearly right."
 )
 _WITHIN_SEARCHES: Final = "The searches and CENTER find parts in spite of small displacements."
 _WITHIN_DRIVES: Final = (
@@ -82,7 +82,7 @@ DeviceFault = PumpFault[Lines]
 
 @cache
 def device_faults() -> tuple[DeviceFault, ...]:
-    """Return all faults of devices, in the order in which they are listed."""
+    """Return all faults of devices, in the order of the catalogue."""
     return (*_switches(), *_hand(), *_force(), *_joints(), *_screwdriver(), *_sight())
 
 
@@ -169,8 +169,8 @@ def _force() -> Iterator[DeviceFault]:
     for axis in "xyz":
         yield _fault(
             f"force.off_zero.{axis}",
-            f"The drives have an offset that equals this force at the hand along the {axis} axis of the table; the "
-            "program, which computes the force from the commanded torques, feels a force that does not exist.",
+            f"The drives have an offset that equals this force at the hand along the {axis} axis of the table. The "
+            "program computes the force from the commanded torques, so it feels a force that does not exist.",
             f"force.{axis}", OffsetEffect, ExpectedDetection(errors=(FORCE_WRONG,), at_setup=True),
             Size(unit="N", usual=20.0, limits=(-100.0, 100.0)),
         )  # fmt: skip
@@ -264,8 +264,8 @@ def _screwdriver() -> Iterator[DeviceFault]:
         ExpectedDetection(errors=(CURRENT_WRONG,)),
     )  # fmt: skip
     within = (
-        "When a screw seats, the noise of the current hides a measured torque of 1.1 times the true torque. When "
-        "the motor starts, the noise hides a measured torque of .7 times the true torque."
+        "The noise of the current hides a factor near 1: a factor of 1.1 when a screw seats, and a factor of .7 "
+        "when the motor starts."
     )
     yield _fault(
         f"{current}.factor", "The current of the screwdriver's motor shows the true torque times this "
@@ -278,7 +278,7 @@ def _screwdriver() -> Iterator[DeviceFault]:
         ExpectedDetection(
             errors=(CURRENT_WRONG,), calls=(detect.loose_screw(1), detect.loose_screw(3)),
             harmless="A screw that turns more slowly seats equally well. A motor at half its usual speed is "
-            "noticed, because it takes less time to start.",
+            "noticed, because it reaches its lower speed sooner.",
         ),
         Size(unit="", usual=0.4, limits=(0.0, 2.0)),
     )  # fmt: skip

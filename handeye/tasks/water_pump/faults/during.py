@@ -1,9 +1,9 @@
 """Faults that begin during a run: mishaps, caused by a person's hand or by chance.
 
-Each mishap begins with a stage and lasts a stated time. A part that is taken away or lost is put on the tray below
-the floor, where nothing touches it; the hand that takes it is not simulated. A push is modelled as a force. A hand
-that moves the base is modelled as a spring between the base and a point that moves at constant speed; friction
-carries along the parts on the base.
+Each mishap begins with a stage and lasts a stated time. A part that is taken away or lost is put on the tray below the
+floor, where nothing touches it; the hand that takes it is not simulated. A push is modelled as a force. A hand that
+moves the base is modelled as a spring between the base and a point that moves at constant speed. Friction carries
+along the parts on the base.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -103,7 +103,7 @@ def _put_out(scene: Scene, _: MishapState) -> bool:
 
 @cache
 def mishap_faults() -> tuple[MishapFault, ...]:
-    """Return all mishaps, in the order in which they are listed."""
+    """Return all mishaps, in the order of the catalogue."""
     return (*_light_and_pushes(), *_base(), *_losses(), *faults_of_finished_work())
 
 
@@ -165,7 +165,7 @@ def _losses() -> Iterator[MishapFault]:
 
 
 def due(faults: Sequence[Fault]) -> list[tuple[Fault, Mishap]]:
-    """Return the mishaps among a run's faults, each with its fault."""
+    """Return those faults of a run that are mishaps, each with the mishap that it causes."""
     return [(fault, make(fault.value or 0.0)) for fault, make in broken(mishap_faults(), faults)]
 
 

@@ -136,7 +136,7 @@ def _loosened_by(screw: int) -> Callable[[float], Mishap]:
 
 
 def faults_of_finished_work() -> Iterator[MishapFault]:
-    """Yield all mishaps to finished work, in the order in which they are listed."""
+    """Yield all mishaps to finished work, in the order of the catalogue."""
     yield from _screws()
     yield from _rotors()
     yield from _taken()

@@ -86,5 +86,5 @@ MishapFault = PumpFault[Callable[[float], Mishap]]
 
 
 def always(mishap: Mishap) -> Callable[[float], Mishap]:
-    """Return a function that ignores the size of a fault and returns this mishap, for a fault that has no size."""
+    """Return a function that returns `mishap` for every size. It is used to declare faults without a size."""
     return lambda _: mishap

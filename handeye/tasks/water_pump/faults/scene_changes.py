@@ -53,8 +53,9 @@ def reverse(spec: mujoco.MjSpec, part: str, middle: Point) -> None:
 
 
 def turn(spec: mujoco.MjSpec, part: str, middle: Point, yaw: float) -> None:
-    """Turn a part about the vertical through one of its points (m) until its yaw is `yaw` (rad). The tilt of
-    the part does not change."""
+    """Turn a part about the vertical axis through its point `middle` (m). Afterwards, the yaw of the part is `yaw`
+    (rad). The tilt of the part does not change.
+    """
     body = spec.body(part)
     angle = yaw - yaw_of(spec, part)
     w, *vector = body.quat
@@ -148,8 +149,8 @@ def thick_point(screw: str, spec: mujoco.MjSpec, more: float) -> None:
 
 
 def block(hole: int, plug_name: str, spec: mujoco.MjSpec, depth: float) -> None:
-    """Fill the bottom of a hole with metal up to a depth (m) below the mouth of the hole. A screw in this hole can
-    then go no deeper than that.
+    """Fill the bottom of a hole with metal up to a depth (m) below the mouth of the hole. A screw in this hole then
+    stops at the metal.
     """
     x, y, mouth = spec.site(f"base_hole{hole}").pos
     floor = base_top() - dimensions()("base.screw_holes.depth")

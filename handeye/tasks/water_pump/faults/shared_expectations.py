@@ -179,8 +179,8 @@ def screw_of(hole: int) -> int:
 
 
 def if_used(number: int, expected: ExpectedDetection) -> ExpectedDetection:
-    """Return `expected` if the program uses the screw or hole with this number. A pump may have a seventh screw and a
-    seventh hole, but the program uses neither of these two. For number 7, no expectation is therefore stated: only the
-    referee can notice a fault of this screw or hole.
+    """Return `expected` if the program uses the screw or hole with the number `number`. A pump may have a seventh
+    screw and a seventh hole, but the program uses neither of these two. For number 7, no expectation is therefore
+    stated: only the referee can notice a fault of this screw or hole.
     """
     return expected if number <= len(SCREWED) else UNKNOWN

@@ -1,1 +1,3 @@
-"""What a program of the pump must show before it may end, for each finding of the referee."""
+"""Lists the obligations of the pump's programs. For each finding of the referee, a program must show certain claims
+before it may end.
+"""

@@ -82,8 +82,8 @@ class PumpClaims:
         )
 
     def tight(self, hole: int) -> Claim:
-        """Return the claim that, after all screws had gone into their threads, the screw at a hole was driven once
-        more, until the torque stop.
+        """Return the claim that the screw at a hole was tightened. After all screws were in their threads, this screw
+        was driven once more, and the torque stop ended the driving.
         """
         socket = self.places.socket(hole)
         driven = [self.threaded(each).phases[0].by for each in range(self.places.screws)]
@@ -267,8 +267,8 @@ class PumpClaims:
         limits = Limits(high - 0.16 * INCH, high + 0.12 * INCH)
         by = HeightWithin(of=self.places.touched(end), over=self.places.table, limits=limits)
         return Claim(
-            says="after letting go of the pin, the fingers feel that the end of the pin in the holder is 3.5 inches "
-            "over the table, with a tolerance of .12 inch",
+            says="after letting go of the pin in the holder, the fingers feel that its end is 3.5 inches above the "
+            "table, with a tolerance of .12 inch",
             where=f"pin {number + 1}",
             phases=(Phase(by=(by,), undone=(Gripped(where=held), Released(where=held))),),
         )

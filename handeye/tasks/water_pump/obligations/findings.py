@@ -63,7 +63,7 @@ def _sensed(screws: int) -> Iterator[Obligation]:
         ),
         Obligation(
             finding="screws_thread", claims=threaded,
-            rests="The screw has the length of the drawing (screws_size).",
+            rests="The screw has the length that the drawing gives (screws_size).",
         ),
         Obligation(
             finding="screws_place", claims=threaded, rests="A thread holds its screw on the axis of the hole."
@@ -98,8 +98,8 @@ def _sensed(screws: int) -> Iterator[Obligation]:
         Obligation(finding="motor", claims=(claims.motor_off(),), rests=_SERVO),
         Obligation(
             finding="rest", claims=(claims.released(),),
-            rests="The program notices that a part hangs from the hand only if it must touch this part for another "
-            "finding.",
+            rests="If a part hangs from the hand, the program may not notice: it touches only the parts that other "
+            "findings need.",
         ),
     )  # fmt: skip
 
@@ -122,7 +122,7 @@ _SERVO: Final = (
     "The arm and the hand have executed all commands, because each step waits for the end of its motion."
 )
 _UNSENSED: Final = {
-    "screws_hold": "The arm cannot test whether a screw holds without loosening the screw.",
+    "screws_hold": "To test whether a screw holds, the arm would have to loosen the screw.",
     "threads_scarred": "The arm does not feel a scar; the referee only warns of one.",
     "floor": "No step looks under the table.",
     "tray": (

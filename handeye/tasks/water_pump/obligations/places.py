@@ -1,8 +1,8 @@
-"""Regions of the pump's cell in which a touch shows something about a part, and the limits of what the hand may feel
-in each region.
+"""Regions of the pump's cell, with limits. A touch in one of these regions is evidence about a part. The limits of a
+region say what the hand may feel there.
 
-The places follow from the drawing of the cell, and the limits from docs/care.md: each limit is a little wider than the
-limit in the careful program, and no wider than that page justifies.
+The places of the regions come from the drawing of the cell. The limits come from docs/care.md: each limit is a little
+wider than the limit in the careful program, but not wider than docs/care.md justifies.
 """
 
 from dataclasses import dataclass
@@ -92,7 +92,7 @@ class PumpPlaces:
 
 
 def point(name: str) -> Point:
-    """Return a point of the drawing in the table frame (m)."""
+    """Return the table-frame coordinates (m) of the point called `name` in the table of dimensions."""
     x, y = dimensions().all(name)
     return x, y
 

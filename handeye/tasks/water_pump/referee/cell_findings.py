@@ -30,7 +30,7 @@ Mask = NDArray[np.bool_]
 
 
 def around(measured: SettledState, holes: tuple[Thread, ...]) -> Findings:
-    """Judge the positions and speeds of one measurement of the cell."""
+    """Judge the positions and speeds in `measured`, one state of the cell."""
     model = measured.model
     parts = [*PARTS, *PINS, "driver", *loose_screws(holes)]
     lowest = min(measured.pose(name)[2, 3] for name in parts)

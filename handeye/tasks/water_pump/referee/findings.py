@@ -19,9 +19,9 @@ from handeye.tasks.water_pump.referee.measure import PINS
 def judge(truth: Truth) -> Findings:
     """Measure the pump and its cell.
 
-    Positions are measured twice: as the parts were left, and after they have settled. The worse finding counts,
-    because a part without support falls, and a part pressed into another springs out. The state of the cell is
-    not changed.
+    Positions are measured twice: as the parts were left, and after they have settled. While the cell settles, a part
+    without support falls, and a part that was pressed into another part springs out. The worse finding counts. The
+    state of the cell is not changed.
     """
     left, settled = _as_left_and_settled(truth)
     holes = holes_of(truth)
@@ -66,8 +66,8 @@ def _base(measured: SettledState) -> Findings:
 
 
 def _layer(measured: SettledState, layer: str, holes: tuple[Thread, ...]) -> Findings:
-    """Judge the height of gasket or top, and whether every screw passes through its hole in that layer without
-    cutting into it.
+    """Judge one layer, which is the gasket or the top. The layer must be at its height, and no screw may cut into the
+    layer's material at its hole.
     """
     off = measure.corner_height(measured, layer, len(holes))
     margin = [measure.clearance(measured, layer, k) for k in range(len(holes))]
@@ -192,7 +192,7 @@ def _turning(settled: SettledState) -> Finding:
 
 
 def judge_pins(truth: Truth) -> Findings:
-    """Judge whether each aligning pin stands in a hole of the base that is meant for a pin. Each pin is judged twice:
+    """Judge whether each aligning pin stands in one of the holes that the base has for pins. Each pin is judged twice:
     as the arm left it, and after it has settled. The worse finding counts.
     """
     left, settled = _as_left_and_settled(truth)

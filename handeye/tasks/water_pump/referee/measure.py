@@ -64,7 +64,7 @@ def misfit(measured: SettledState, layer: str, hole: int) -> float:
 
 
 def clearance(measured: SettledState, layer: str, hole: int) -> float:
-    """Return the radial clearance (m) of a screw's shank in the hole of a layer, which is the gasket or the top."""
+    """Return the radial clearance (m) of a screw's shank in a hole of the gasket or the top."""
     model = measured.model
     return float(model.site(f"{layer}_hole{hole}").size[0] - model.geom(f"shank{hole}").size[0])
 
@@ -80,8 +80,9 @@ def corner_height(measured: SettledState, layer: str, holes: int) -> float:
 
 
 def pins_away(measured: SettledState) -> float:
-    """Return the greatest distance of the middle of a pin's shoulder from the mouth of its hole in the base (m). A pin
-    may stand in any of the holes for pins, but each hole takes only one pin.
+    """Measure, for each pin, the distance (m) between the middle of its shoulder and the mouth of its hole in the
+    base, and return the greatest distance. A pin may stand in any of the holes for pins, but each hole takes only one
+    pin.
     """
     mouths = [
         measured.data.site(f"base_hole{int(hole)}").xpos
@@ -135,8 +136,8 @@ def loosening_torque(measured: SettledState, hole: int) -> float:
 
 
 def screw_deviation(measured: SettledState, screw: int, hole: int) -> float:
-    """Return by how much (m) a length or radius of a screw differs most from the design. The loose screw and the
-    carrier that replaces it in its thread are both measured.
+    """Return the greatest difference (m) between a length or radius of a screw and its value in the design. The loose
+    screw and the carrier that replaces it in its thread are both measured.
     """
     model, size = measured.model, dimensions()
     length, tip, head = size("screw.length"), size("screw.point_length"), size("screw.head_height")
@@ -153,8 +154,8 @@ def screw_deviation(measured: SettledState, screw: int, hole: int) -> float:
 
 
 def rotor_deviation(measured: SettledState) -> float:
-    """Return the greater of two distances (m): the distance of the rotor from its bearing on the top, and the
-    distance of the end of the crank pin from its nominal position.
+    """Return the greater of two distances (m): from the rotor to its bearing on the top, and from the end of the crank
+    pin to its nominal position.
     """
     model, size = measured.model, dimensions()
     height = size("top.flange") + size("top.hub_height")
@@ -197,7 +198,9 @@ def rotor_torque(measured: SettledState) -> float:
 
 
 def _alone(measured: SettledState) -> tuple[mujoco.MjModel, mujoco.MjData]:
-    """Return a copy of the cell in which only the rotor has friction, constraints, and contacts with solid shapes."""
+    """Return a copy of the cell in which nothing acts on the rotor except friction in its joint and contacts with
+    solid shapes.
+    """
     model, rotor = copy.deepcopy(measured.model), measured.model.body("rotor").id
     crank = model.geom_bodyid == rotor
     solid = (model.geom_contype | model.geom_conaffinity) != 0

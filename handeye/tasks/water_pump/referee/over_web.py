@@ -18,8 +18,9 @@ OVER_WEB: Final = hypot(INCH / 3, INCH / 4) / MILLIMETRE
 along x and 1/4 inch along y; this limit is the distance if both errors occur together.
 """
 ACROSS_WEB: Final = 3.0
-"""Greatest angle (deg) between the finger line and the line between the large holes. Two pictures determine the
-direction of the base to .26 deg (root mean square); the rest of the angle allows for errors of the arm. Our choice.
+"""Greatest angle (deg) between the finger line and the line between the large holes. We chose this limit. It covers
+the errors of the arm and of the pictures: two pictures determine the direction of the base to .26 deg (root mean
+square).
 """
 
 

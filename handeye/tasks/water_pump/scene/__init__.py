@@ -27,9 +27,9 @@ _METAL: Final = (
 def specification(world: PumpWorld) -> mujoco.MjSpec:
     """Return the scene before compilation. The caller can then add shapes to the scene, or save it.
 
-    The bodies of the scene are `base` (which contains `carrier0`, `carrier1` and so on), `gasket`, `top` (which
-    contains `rotor`), `pin0`, `pin1`, `screw0`, `screw1` and so on, `driver` (which contains `bit`), the fixtures, and
-    the arm's bodies, whose names begin with `stanford/`. The world frame is that of the table.
+    The scene contains the bodies `base`, `gasket`, `top`, `pin0`, `pin1`, `screw0`, `screw1` (and so on), `driver`,
+    and the fixtures. The base contains `carrier0`, `carrier1` (and so on), the top contains `rotor`, and the driver
+    contains `bit`. The names of the arm's bodies begin with `stanford/`. The world frame is the frame of the table.
     """
     spec = mujoco.MjSpec.from_file(str(scenes() / "water_pump" / "workcell.xml"))
     add_arm(spec, world)  # first, because free bodies added before the arm would shift its joints
@@ -52,7 +52,7 @@ def specification(world: PumpWorld) -> mujoco.MjSpec:
 
 
 def build(world: PumpWorld) -> mujoco.MjModel:
-    """Compile the scene. All joint positions are zero, which is outside the limits of joint 3: set a
+    """Compile the scene. All joint positions are zero. Zero is outside the limits of joint 3, so the caller must set a
     configuration before the first physics step.
     """
     return specification(world).compile()

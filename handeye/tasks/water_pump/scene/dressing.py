@@ -73,7 +73,7 @@ def _add_reel(shaper: Shaper, number: int, at: Vector, tape: float) -> None:
 
 
 def _flange() -> solids.Surface:
-    """Return the front flange of a reel, with three windows and its axis along y."""
+    """Return the front flange of a reel. The flange has three windows, and its axis is along y."""
     disc = solids.disc(_REEL_RADIUS_M)
     for k in range(3):
         angle = 2 * math.pi * k / 3 + 0.5
@@ -184,8 +184,9 @@ _BEVELLED: Final = ("block", "enamel", "red", "iron")  # materials of blocks, fi
 
 
 def add_bevels(shaper: Shaper) -> None:
-    """Show the boxes of a scene with bevelled edges in photographs. The television camera still sees the plain
-    boxes."""
+    """Give the boxes of a scene bevelled edges, which only photographs show. The television camera still sees the
+    plain boxes.
+    """
     boxes = [geom for geom in shaper.spec.geoms if geom.type == BOX and geom.group == SEEN]
     for box in boxes:
         if box.material in _BEVELLED:

@@ -1,5 +1,6 @@
-"""Adds the fixtures on the table (blocks, stands and rack), each displaced from its nominal position by its
-error in the world."""
+"""Adds the fixtures on the table: blocks, stands and rack. Each fixture is displaced from its nominal position by its
+placement error in the world.
+"""
 
 from dataclasses import dataclass
 from typing import Final
@@ -35,8 +36,8 @@ class Fixture:
         turn: float = 0.0,
         error: Placing = EXACT,
     ) -> mujoco.MjsBody:
-        """Add a free body that starts on this fixture. The body's pose is the nominal position (m) and the yaw `turn`
-        (rad), plus an error.
+        """Add a free body that starts on this fixture. The nominal pose of the body is given by a position (m) and the
+        yaw `turn` (rad); `error` changes both.
         """
         X = self.X_WF @ error.about(x, y, z) @ planar(x, y, z, turn)
         body = _body(shaper, name, X)

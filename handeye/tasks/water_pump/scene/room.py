@@ -152,8 +152,8 @@ def _add_light(spec: mujoco.MjSpec, world: PumpWorld) -> None:
 
 
 def _add_cameras(spec: mujoco.MjSpec) -> None:
-    """Add the cameras for photographs, and the television camera `tv`. The television camera looks at the standard
-    position until the cell turns it.
+    """Add the cameras for photographs, and the television camera `tv`. At first, the television camera looks at the
+    standard position; the cell can turn the camera.
     """
     d = dimensions()
     focal = d.all("camera.focal_length")[0]

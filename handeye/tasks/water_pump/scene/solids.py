@@ -182,8 +182,8 @@ def volume_moments(closed: Surface) -> tuple[float, Array, Array]:
 
 
 def painted(whole: Surface, colour: Callable[[Array, Array], NDArray[np.str_]]) -> dict[str, Surface]:
-    """Divide a surface into parts of one colour each. `colour` returns the name of each triangle's colour,
-    shape (m,), from the triangles' centres and unit normals, shape (m, 3).
+    """Divide a surface into parts of one colour each. `colour` receives the centres and the unit normals of the
+    triangles, each of shape (m, 3). It returns the names of the triangles' colours, shape (m,).
     """
     vertices, triangles = whole
     corners = vertices[triangles]

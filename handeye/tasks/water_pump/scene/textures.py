@@ -23,8 +23,8 @@ Grain = Callable[[np.random.Generator], Array]
 
 
 def add_textures(spec: mujoco.MjSpec) -> None:
-    """Give the materials their grain. Each grain is computed with a random generator of its own with a fixed seed, so
-    the grain is always the same.
+    """Give the materials their grain. Each grain has its own random generator with a fixed seed, so the grain is
+    always the same.
     """
     for name, pixels in _pixels().items():
         texture = spec.add_texture(name=name, type=mujoco.mjtTexture.mjTEXTURE_2D)
@@ -47,8 +47,10 @@ def _pixels() -> dict[str, NDArray[np.uint8]]:
 
 
 def _smooth(rng: np.random.Generator, along_x: float, along_y: float, size: int = _SIZE) -> Array:
-    """Return noise blurred with Gaussians of these standard deviations (pixels). The noise wraps around at the
-    edges and has unit variance. Frequencies that the blur removes are not computed."""
+    """Return noise that is blurred along x and y. The blur along each axis is Gaussian, with the standard deviations
+    `along_x` and `along_y` (pixels). The noise wraps around at the edges and has unit variance. Frequencies that the
+    blur removes are not computed.
+    """
     down, across = _passed(along_y, np.fft.fftfreq(size)), _passed(along_x, np.fft.rfftfreq(size))
     kept = np.count_nonzero(across > _LOST)
     spectrum = np.fft.rfft(rng.standard_normal((size, size)), axis=1)[:, :kept]
@@ -120,6 +122,6 @@ _LIKE: Final = {"top": "machined", "block": "machined"}  # materials that have t
 _REPEATS: Final = {
     "belt": 1, "cast": 25.0, "floor": 3.3, "machined": 12.0, "table": 1, "wood": 1, "top": 12.0, "block": 12.0,
 }  # fmt: skip
-"""How often the texture of a grain is repeated in a metre. The value 1 has a meaning of its own: the texture covers
-the whole surface once.
+"""How often the texture of each material repeats per metre. The value 1 is an exception: this texture covers the whole
+surface once.
 """

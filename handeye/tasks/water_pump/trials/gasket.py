@@ -1,4 +1,4 @@
-"""Trial of vision: inspect whether the gasket lies correctly."""
+"""Trial of vision: check that the gasket lies correctly."""
 
 import math
 from collections.abc import Callable, Iterator, Sequence

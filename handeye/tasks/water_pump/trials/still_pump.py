@@ -1,5 +1,5 @@
 """The pump's cell in its initial state, for trials of vision: parts are placed at given poses, and located with
-the camera. Parts and camera are described as the program knows them.
+the camera. The trials know only as much about parts and camera as a program knows.
 """
 
 import math
@@ -156,8 +156,8 @@ def by_lamp(still: StillPump, renderer: str) -> Calibration:
     """Calibrate as in a run: the arm measures the errors of its joints, and then carries its lamp through the
     camera's view.
 
-    Afterwards, the camera of the still cell has the same lens, aim and state of the noise generator as the camera at
-    the end of the calibration. Raises CalibrationFailed if the lamp was seen too few times.
+    The calibration is done in a separate cell. Afterwards, the state of that cell's camera is copied to the camera of
+    the still cell: lens, aim, and noise generator. Raises CalibrationFailed if the lamp was seen too few times.
     """
     cell = build_cell(still.world, camera=renderer)
     drive = DriveState.holding(cell.devices.sense(), STANFORD)

@@ -44,8 +44,8 @@ class Placing:
     roll: float = 0.0
 
     def about(self, x: float, y: float, z: float = 0.0) -> Pose:
-        """Return this error as a pose that moves everything fixed to the part: the error displaces the part, and turns
-        the part about the point (x, y, z) (m).
+        """Return the pose that applies this error to a part and to everything fixed to the part. The error displaces
+        the part, and turns it about the point (x, y, z) (m).
         """
         R = rotation_z(self.yaw) @ rotation(np.array([0.0, self.pitch, 0.0])) @ rotation_x(self.roll)
         p, error = np.array([x, y, z]), np.array([self.x, self.y, self.z])

@@ -27,8 +27,8 @@ class Station(StrEnum):
 
 
 def plain_stations() -> dict[str, tuple[Box, ...]]:
-    """Map the name of each station that consists only of boxes to these boxes, in the table frame (m). Raises
-    InvalidInput if a station's figures do not describe boxes.
+    """Return the boxes of each station that consists only of boxes, in the table frame (m). The keys are the names of
+    the stations. Raises InvalidInput if a station's figures do not describe boxes.
     """
     found = {}
     for figure in dimensions().figures:

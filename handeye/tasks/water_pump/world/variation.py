@@ -66,7 +66,9 @@ def _make() -> Iterator[Quantity]:
 
 
 def _of(number: int, quantities: Iterator[Quantity]) -> Iterator[Quantity]:
-    """Yield quantities of the screw or hole with this number. A pump with fewer screws lacks these quantities."""
+    """Yield `quantities`, which belong to the screw or hole with the number `number`. If `number` is above the usual
+    number of screws, the quantities exist only in worlds whose pump has this screw.
+    """
     where = (SCREWS, float(number)) if number > USUAL else None
     return (replace(quantity, where=where) for quantity in quantities)
 
@@ -144,8 +146,8 @@ def _holes() -> Iterator[Quantity]:
         for hole in range(1, max(MAKES) + 1):
             yield from _of(hole, group(
                 f"holes.{part}.{hole}", {"x": Normal(0.0015), "y": Normal(0.0015)}, "in",
-                f"Position of a screw hole of the {part}, relative to its drawing. The holes of the base are "
-                f"tapped; those of gasket and top are drilled separately.",
+                f"Deviation of a screw hole of the {part} from its place in the drawing. The holes of the base are "
+                "tapped; those of gasket and top are drilled separately.",
                 unsourced="no drawing of the pump is known; two sigma are +-.003 in, the accuracy of a drilling jig. "
                           "Bound: +-.004 in for lengths of 6 to 30 mm and +-.006 in for lengths of 30 to 120 mm, "
                           "class f of ISO 2768-1.",
@@ -157,8 +159,9 @@ def _parts() -> Iterator[Quantity]:
     by_hand = f"the papers do not say how accurately the parts stood on their stands. {DOUBLED}"
     off = {"x": Uniform(0.03), "y": Uniform(0.03), "yaw": Uniform(1.0)}
     played = (
-        "Position within the play that the guides or the hole allow, uniformly distributed. At the level `high`, "
-        "too, the position stays within the play. A pin has no play, because the bevel of its hole centres it."
+        "Position of the screwdriver within the play of its guides, or of a screw within the play of its hole, "
+        "uniformly distributed. At the level `high`, too, the position stays within the play. A pin has no play, "
+        "because the bevel of its hole centres it."
     )
     play = {axis: Uniform(IN_PLAY / 2) for axis in "xy"}
     numbers = range(1, max(MAKES) + 1)
