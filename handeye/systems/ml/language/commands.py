@@ -110,7 +110,7 @@ _ROWS: Final[dict[Category, tuple[tuple[str, str, str, str], ...]]] = {
          "20 LOOPJ 4"),
         ("NEXTI", "", "The end of the statements that LOOPI repeats.", "80 NEXTI"),
         ("NEXTJ", "", "The end of the statements that LOOPJ repeats.", "70 NEXTJ"),
-        ("RETURN", "", "Go back to the statement after the last GOSUB.", "950 RETURN"),
+        ("RETURN", "", "Go back to the statement after the GOSUB that called the subroutine.", "950 RETURN"),
         ("STOP", "", "End the program. The arm holds its position.", "99 STOP"),
     ),
     "motion": (

@@ -32,7 +32,9 @@ WORDS: Final[dict[str, Word]] = {
     "GOSUB": Word(
         "statement", "GOSUB line", "Go to a subroutine; its RETURN goes back to the line after GOSUB.", "10 GOSUB 500",
     ),
-    "RETURN": Word("statement", "RETURN", "Go back to the line after the last GOSUB.", "570 RETURN"),
+    "RETURN": Word(
+        "statement", "RETURN", "Go back to the line after the GOSUB that called the subroutine.", "570 RETURN",
+    ),
     "FOR": Word(
         "statement", "FOR name = expression TO expression [STEP expression]",
         "Repeat the lines up to NEXT, once for each value of the variable. The lines run at least once.",
