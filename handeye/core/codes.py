@@ -248,7 +248,7 @@ CODES: Final[dict[str, Code]] = {
     "unknown-label": _error("a jump goes to a label that no statement has", "JUMP NOWHERE"),
     "unknown-lens": _error("the lens turret has no lens with this focal length", "LENS 35"),
     "unknown-parameter": _warning(
-        "a text in a macro has a name in braces, but the macro has no such parameter",
+        "a text in a macro contains a name in braces that is not a parameter of the macro",
         'DEFINE A S\nMOVE S\nWAIT "NOT AT {P}"\n\nA T',
     ),
     "unknown-part": _error("a part is unknown", "TRANS A [0 0 0 0 0 0] OF LID\nPARK"),

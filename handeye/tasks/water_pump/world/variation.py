@@ -94,7 +94,7 @@ def _camera() -> Iterator[Quantity]:
         group("camera.turn", {axis: Normal(0.2) for axis in ("pan", "tilt", "roll")}, "deg",
             f"Rotation of the camera's mount. {_VISION}"),
         group("camera.focal_length", {lens: Normal(0.4) for lens in lenses}, "%",
-            f"Relative deviation of each lens's focal length from that of the drawing. {_VISION}", least=-50.0),
+            f"Relative deviation of each lens's focal length from its value in the drawing. {_VISION}", least=-50.0),
         group("camera", {"pot_noise": Noise(0.07)}, "deg",
             "Noise of the pan and tilt readings. In the vision study, noise of .07 to .10 deg reproduces the "
             "location errors of 1973."),
