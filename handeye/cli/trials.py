@@ -228,9 +228,9 @@ def chaos_trials(
     trace can be read and says what happened. `disk`: nothing is lost on disk. `error`: no exception is raised. If a
     schedule fails, the trial removes its elements one by one, and keeps only those without which the schedule does not
     fail. The trial then prints this shortest failing schedule as a command. If a fault spoiled a part of the pump only
-    after the program's last look at this part, the schedule is `unseen` instead of silent. Before the schedules, the
-    command makes one complete run in each world. A complete run takes one CPU minute, and a schedule takes some
-    seconds.
+    after the program's last look at this part, the schedule counts as `unseen`, not as `silent`. Before the
+    schedules, the command makes one complete run in each world. A complete run takes one CPU minute, and a schedule
+    takes some seconds.
 
     Exit code 0: all checks passed; 3: a check failed; 2: bad input; 130: interrupted.
     """

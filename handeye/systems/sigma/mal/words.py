@@ -150,7 +150,7 @@ WORDS: Final[dict[str, Word]] = {
     ),
     "CRASHPOS": Word(
         "function", "CRASHPOS(axis)",
-        "The position (in mm) at which the last motion of the axis was aborted, as the motor reports it.",
+        "The position (in mm, reported by the motor) at which a motion of the axis was last aborted.",
     ),
     "STATUS": Word("function", "STATUS(axis)", "The state of the axis: 0 free, 1 busy, 2 stopped at the end "
     "of its rail, 3 stopped by a force."),
