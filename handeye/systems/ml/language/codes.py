@@ -96,7 +96,8 @@ CODES: Final[dict[str, Mistake]] = {
         cure="before the motion, lower the speed with `PUT MT m 8 x`, or widen the limits", severity="warning",
     ),
     "unguarded-motion": Mistake(
-        meaning="a motion is not guarded: no sensor has limits", example="10 DMOTOR 2 -100\n20 STOP",
+        meaning="no sensor has limits during a motion, so nothing guards the motion",
+        example="10 DMOTOR 2 -100\n20 STOP",
         cure="write a SENSOR with limits before the motion", severity="warning",
     ),
 }  # fmt: skip
