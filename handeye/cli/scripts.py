@@ -60,8 +60,8 @@ def check(
         bool,
         Parameter(
             group=PROOF,
-            help="Also prove, for each finding of the task's referee: on every path to its end, the program would "
-            "notice if the finding did not hold. FILE may also be a plan.",
+            help="Also prove that, on every path to the end of the program, the program would notice if a finding "
+            "of the task's referee did not hold. With --prove, FILE may also be a plan.",
         ),
     ] = False,
     proof: ProofOptions | None = None,

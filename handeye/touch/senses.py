@@ -30,7 +30,8 @@ FREE_FORCE: Final = 45 * OUNCE_FORCE
 """Greatest force that the arm may sense in free air: 12.5 N. With more force, the program calls the operator. The
 errors of link masses, mass centres, drive gains and joint friction look like a force on the hand, upwards or
 downwards. We calculated this apparent force for 15 places on the table: it is at most 6.1 N in 400 nominal worlds, and
-at most 8.9 N in worlds of the high level. At the high level, the weight of the base beyond its declared load adds 2 N.
+at most 8.9 N in worlds of the high level. In these worlds, the base may also weigh 2 N more than the load that the
+program declares.
 """
 SWITCH_FORCE: Final = 10 * OUNCE_FORCE
 """Force (N) with which the fingers press after centring. It closes both switches.
@@ -70,7 +71,7 @@ motor fast.
 
 If the program requests 42 ounce-inches, this limit is .09 N m. A turning screw takes .02 N m. A bit that slips on a
 head while the hand presses with 22 ounces takes at most .025 N m, even if this whole force causes friction at the edge
-of the head. Five times the noise of the current adds .04 N m.
+of the head. Even with five times the noise of the current (.04 N m), these torques stay below the limit.
 """
 CURRENT_NOISE: Final = 0.008  # N m, of a reading: twice the stated noise of the current
 
