@@ -89,8 +89,8 @@ def insertion(
 
     The arm, hand and servo are the same as in the pump's cell. The plate has one hole, which is displaced along each
     axis by a normally distributed error. As with the pump, worlds differ in the errors of arm and hand. A trial begins
-    with the pin held over the hole. Without --clearance, --chamfer and --sd, the command tries several conditions:
-    that of a published benchmark, and conditions that differ from it in one value. This takes some minutes.
+    with the pin held over the hole. Without --clearance, --chamfer and --sd, the command tries the condition of a
+    published benchmark, and several conditions that differ from this condition in one value. This takes some minutes.
 
     Peak force is the greatest force between pin and plate in any physics step, from the simulator's ground truth; the
     program never sees this force. Ctrl-C stops the command and prints the trials that have finished.

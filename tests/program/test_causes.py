@@ -84,12 +84,14 @@ WORDS: list[tuple[c.Cause, str]] = [
     (
         s.RateScatters(joint=ARM.joints[1], scatter=1.7 * DEGREE, limit=0.6 * DEGREE),
         "the tachometer reading of the wrist scatters by 1.7 degrees/s while the arm holds still; allowed: 0.6 "
-        "degrees/s; either the tachometer fails, or the joint's drive or something outside shakes the arm",
+        "degrees/s; the cause is a failing tachometer, an unsteady drive of the joint, or something outside that "
+        "shakes the arm",
     ),
     (
         s.RateScatters(joint=ARM.joints[0], scatter=1.0 * INCH, limit=0.25 * INCH),
         "the tachometer reading of the rail scatters by 1.00 in/s while the arm holds still; allowed: 0.25 in/s; "
-        "either the tachometer fails, or the joint's drive or something outside shakes the arm",
+        "the cause is a failing tachometer, an unsteady drive of the joint, or something outside that shakes the "
+        "arm",
     ),
     (
         s.SwitchesCrossed(fingers=(True, False), moved=0.06 * INCH),

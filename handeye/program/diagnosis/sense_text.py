@@ -95,8 +95,8 @@ def doubt_sentence(cause: s.SenseCause) -> str:
             scatter, limit = (_rate(cause.joint, rate) for rate in (cause.scatter, cause.limit))
             return (
                 f"the tachometer reading of the {cause.joint.name} scatters by {scatter} while the arm holds still; "
-                f"allowed: {limit}; either the tachometer fails, or the joint's drive or something outside shakes "
-                "the arm"
+                f"allowed: {limit}; the cause is a failing tachometer, an unsteady drive of the joint, or something "
+                "outside that shakes the arm"
             )
         case s.JointAlone():
             return _alone(cause)
