@@ -239,11 +239,11 @@ WORDS: list[tuple[c.Cause, str]] = [
     ),
     (
         c.HoldOff(gap=0.0, kept=0.0075, holding=True),
-        "the gap is 0.00 in; when the step was executed, the fingers held an object at 0.30 in",
+        "the gap is 0.00 in; when the step was executed, the gap was 0.30 in, with an object between the fingers",
     ),
     (
         c.HoldOff(gap=0.0, kept=0.0254, holding=False),
-        "the gap is 0.00 in; when the step was executed, the fingers stood at 1.00 in",
+        "the gap is 0.00 in; when the step was executed, the gap was 1.00 in",
     ),
     (
         c.MetEarly(fingers=(True, False), gap=1.8 * INCH, kept=1.4 * INCH, holding=True),

@@ -35,7 +35,7 @@ WEDGES: Final = 24
 the play of the pin grows only from .057 mm to at most .063 mm.
 """
 PUSH: Final = "push"
-"""Name of the sensor for the resultant force of all contacts between plate and pin (N), in W; no device reads
+"""Name of the sensor for the resultant force (N, in frame W) of all contacts between plate and pin. No device reads
 the sensor.
 """
 _NET_FORCE: Final = [1 << int(mujoco.mjtConDataField.mjCONDATA_FORCE), 3, 1]

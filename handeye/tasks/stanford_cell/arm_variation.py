@@ -178,7 +178,7 @@ def hand() -> Iterator[Quantity]:
         group("hand", {"gap_noise": Noise(0.0003)}, "in",
             "Noise of the gap reading, before the converter.",
             unsourced="the noise is a third of a step of the converter, so the converter hardly shows it. Bound: "
-                "the output smoothness of the Bourns 6639, .1 % of the travel, which is four steps of the converter."),
+                "four steps of the converter, because the output smoothness of the Bourns 6639 is .1 % of the travel."),
         group("hand", {"gap_step": Step(STANFORD.hand.gap_max / UNITS["in"].size / 2**SENSE_BITS)}, "in",
             f"One step of the converter of the gap: {SENSE_BITS} bits over the full opening. Data sheet of 1974."),
         group("hand.switch_force", {"plus_y": Normal(0.4), "minus_y": Normal(0.4)}, "oz",

@@ -48,7 +48,8 @@ def tables(
     sense: Annotated[
         list[str] | None,
         Parameter(
-            help="What a sensor or interlock reads while a program runs. The form is that of `handeye ml run`."
+            help="Reading of a sensor, or state of an interlock, while a program runs; written as for `handeye ml "
+            "run`."
         ),
     ] = None,
     json: Json = False,

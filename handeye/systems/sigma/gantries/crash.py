@@ -190,7 +190,7 @@ def lines(found: Crash) -> list[str]:
 _MEETS: Final = (
     "into the stationary hand of arm 2",
     "into the stationary hand of arm 2, with the column above its own wrist",
-    "into the stationary column of arm 2, above the wrist",
+    "into the column of the stationary arm 2, above that arm's wrist",
 )
 _HITS: Final = {1: "the hand of arm 2, with the column of arm 1", 2: "the column of arm 2"}
 

@@ -132,7 +132,7 @@ def _gasket() -> Iterator[PartFault]:
         ExpectedDetection(calls=(detect.GASKET_LOST, detect.TOO_LOW)),
     )  # fmt: skip
     yield _fault(
-        "gasket.torn", "A square with this side is torn off the gasket around screw hole 6.", scene.tear,
+        "gasket.torn", "A square with sides of this length is torn off the gasket around screw hole 6.", scene.tear,
         ExpectedDetection(errors=(GASKET_WRONG,), calls=(detect.NOT_ON,)),
         Size(unit="mm", usual=18.0, limits=(0.0, 30.0)),
     )  # fmt: skip
