@@ -251,7 +251,7 @@ def worst_trials(
         Parameter(
             help=(
                 "Number of further searches, for failing worlds with even smaller errors. Each search starts from "
-                "one of the nearest failing worlds found so far."
+                "one of the failing worlds with the smallest errors found so far."
             )
         ),
     ] = 5,

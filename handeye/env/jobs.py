@@ -38,8 +38,8 @@ class Job(Record, frozen=True, kw_only=True):
     machine: str = "handeye.env.controlled_arm:ControlledArm"
     """`module:NAME` of the class of the job's machine, derived from `handeye.env.controls.ControlledMachine`."""
     policies: Mapping[str, str] = msgspec.field(default_factory=dict)
-    """The included policies that only this job has: for the name of each policy, the `module:NAME` of the class or
-    function that makes the policy.
+    """Policies that are included with handeye for this job only. Each key is the name of a policy. Its value is the
+    `module:NAME` of the class or function that makes the policy.
     """
     stages: tuple[int, ...] = (0,)
     """Numbers of the stages before which an episode may start; the first stage of the program is 0. If there are

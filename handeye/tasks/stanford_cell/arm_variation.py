@@ -101,8 +101,8 @@ def arm() -> Iterator[Quantity]:
             "1974."),
         group("arm.tachometer_noise", numbered(Noise, 2e-5, 2e-5, 1e-5, 2e-5, 2e-5, 2e-5), _RATES,
             "Noise of the tachometers, before the converter.",
-            unsourced="no data sheet of the arm's tachometers is known. Bound: a step of the converter. One step is "
-            "37 to 146 times this noise, so the converter does not show the noise."),
+            unsourced="no data sheet of the arm's tachometers is known. Bound: a step of the converter, which is 37 "
+            "to 146 times this noise, so the converter does not show the noise."),
         group("arm.tachometer_step", numbered(Step, *rate_step(STANFORD).tolist()), _RATES,
             f"One step of the converter of a tachometer: {SENSE_BITS} bits over the range of the joint's speeds in "
             "both directions. Data sheet of 1974; we infer that the range ends at the joint's greatest speed."),
