@@ -120,7 +120,7 @@ _MEANINGS: Final = {
     "offset along the finger line (the line through both finger tips)",
     "HERE": "define a position as the present place of the hand; if the position was taught relative to a part, it "
     "stays relative to that part",
-    "WHERE": "show the place of the hand in inches and degrees, in the form of `TRANS`",
+    "WHERE": "show the place of the hand as the six numbers of a `TRANS`, in inches and degrees",
     "TRAVEL": "check how far the hand moved in the last CHANGE, PLACE or CENTER; error 8 if this distance (inches) is "
     "outside the range",
     "HEIGHT": "check how much higher the hand is after the last motion than it was at the SAVE of this name; error 9 "
