@@ -46,7 +46,8 @@ CODES: Final[dict[str, Code]] = {
         "an AOJ has no SEARCH before it on any path of the program", "L: MOVE T\nAOJ L"
     ),
     "axis-count": _error(
-        "the number in a FREE or SPIN differs from the number of axes named after it", "FREE 2 X\nCHANGE X 1"
+        "a FREE or SPIN gives a number of axes, and lists more or fewer axes than this number",
+        "FREE 2 X\nCHANGE X 1",
     ),
     "carries-through-fixture": _planning(
         "the part in the hand would go through a fixture",
@@ -108,7 +109,8 @@ CODES: Final[dict[str, Code]] = {
     "line-too-long": _error("a line is too long", f"OPEN 1\n;{'-' * 1000}"),
     "load-beyond-arm": _planning("a load is heavier than the arm can hold", "LOAD 900\nMOVE T"),
     "macro-ends-early": _warning(
-        "a macro ends with a modifier, and the blank line that ends the macro separates the modifier from its motion",
+        "a macro ends with a modifier, and the motion that the modifier should change follows only after the blank "
+        "line that ends the macro",
         "DEFINE DOWN\nSTOP 50\n\nCHANGE Z -1\n\nMOVE T\nDOWN\nPARK",
     ),
     "macro-name-taken": _error("a macro has the name of an instruction", "DEFINE OPEN\nPARK\n\nPARK"),
