@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from handeye.trials.insertion import Condition
 
 GRID_N: Final = 10
-PROGRAMS: Final = {"gentle": "the bench's own program", "1973": "the search of the 1973 listing"}
+PROGRAMS: Final = {"gentle": "the bench's own program", "1973": "the search from the listing of 1973"}
 MOST_SD: Final = 5.0  # mm; with a larger error, most holes would be outside the search
 
 

@@ -123,8 +123,8 @@ def _chosen(names: Sequence[str] | None, languages: Sequence[str] | None) -> "li
 
 
 def _careful(legs: "Iterable[StageLeg]") -> "StageLeg":
-    """Return a leg of the careful program. Its stage is the last stage of `legs`, or the last stage that several
-    languages can do, whichever is later.
+    """Return a leg of the careful program. The stage of this leg is the last stage of `legs`, or the last stage that
+    several languages can do, whichever is later.
     """
     from handeye.systems.relay.stages.languages import shared, stage_legs, stages
 
