@@ -145,7 +145,7 @@ def _friction() -> Iterator[Quantity]:
     """
     means = STANFORD.compliance.friction
     what = (
-        "Coulomb friction of the joints, which varies by up to a quarter of its mean. Without this error, a joint "
+        "Coulomb friction of the joints. It differs from its mean by up to a quarter. Without this error, a joint "
         "has its mean friction. If the friction is set to 0, the joint has none."
     )
     first, *others = numbered(Uniform, *(mean / 4 for mean in means)).items()
