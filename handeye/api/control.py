@@ -29,8 +29,8 @@ class Command:
     """
 
     torque: ArrayLike | None = None
-    """Torque of each joint, shape (n,), in N m, or in N if the joint is prismatic. The drives limit the torque to
-    their greatest torque (`effort` of the joint). None sets the brakes.
+    """Torque of each joint, shape (n,), in N m, or in N if the joint is prismatic. The drive of a joint does not give
+    more than its greatest torque (`effort` of the joint). None sets the brakes.
     """
     gap: float | None = None  # goal of the opening between the finger tips, m
     grip: float | None = None  # greatest force of each finger, N

@@ -43,7 +43,7 @@ _NET_FORCE: Final = [1 << int(mujoco.mjtConDataField.mjCONDATA_FORCE), 3, 1]
 _ON_THE_FLOOR: Final = np.array([0.5, -0.5, -0.7])  # m: place of a pin that is not in the holder
 _RIM: Final = 0.070  # radius of the face around the hole, m
 _METAL: Final = ("solid", "tap", "bore", "base_land", "shoulder", "nose")
-"""MuJoCo's default classes for the shapes whose friction varies between worlds."""
+"""Default classes of the MuJoCo model for the shapes whose friction varies between worlds."""
 
 
 def build(world: InsertionWorld) -> mujoco.MjModel:

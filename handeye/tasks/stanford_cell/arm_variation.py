@@ -198,6 +198,6 @@ def rubbing(kinds: Sequence[str]) -> Iterator[Quantity]:
     yield from group(
         "friction", {name: Uniform(15.0) for name in kinds}, "%",
         "Relative deviation of the coefficients of friction from their values in the drawing.", least=-100.0,
-        unsourced="two laboratories measure different friction for the same pair of metals (VAMAS round robin, Wear "
-                  f"114, 1987; ASTM G115), and this pump was never measured. {DOUBLED}",
+        unsourced="for the same pair of metals, the measured friction differs from laboratory to laboratory (VAMAS "
+                  f"round robin, Wear 114, 1987; ASTM G115), and this pump was never measured. {DOUBLED}",
     )  # fmt: skip

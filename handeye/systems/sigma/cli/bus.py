@@ -1,4 +1,4 @@
-"""The commands that show the MICROBUS, and how often commands on it are misread."""
+"""The `handeye sigma` commands that show the signals on the MICROBUS, and how often a receiver misreads them."""
 
 from dataclasses import dataclass
 from pathlib import Path

@@ -31,9 +31,9 @@ SCREW_STRAIN: Final = 420.0
 screws that are tightened later shift the load. In pumps that the arm has made, the force is at most 298 N.
 """
 SCREW_HOLD: Final = 0.02
-"""Least torque (N m) that may turn a screw back. It is the friction torque of a clean thread without a clamping force.
-With a clamping force of 40 N, a torque of at least .026 N m is needed to turn a screw back in any world. Without
-friction, the clamping force itself would turn the screw out.
+"""A smaller torque (N m) must not turn a screw back. The limit is the friction torque of a clean thread without a
+clamping force. With a clamping force of 40 N, a torque of at least .026 N m is needed to turn a screw back in any
+world.
 """
 SCREW_SIZE: Final = 0.35
 """Greatest deviation of any length or radius from the design (mm): the play of a screw's point in a tapped
@@ -77,10 +77,10 @@ more.
 RACK_PLACE: Final = 3.0  # mm from its place in the rack: guides and their bevels
 
 ROTOR_TORQUE: Final = 0.1
-"""Greatest torque (N m) to turn the rotor all the way round, in both directions: twice the friction of the rotor,
-which is .05 N m in every world. Inertia and bearing add .01 N m at the speed of the referee's turn. A rotor that needs
-.35 N m binds. Our notes on the system of 1973 describe a weaker check: it pushes the crank with 40 oz, and so accepts
-a rotor that needs .35 N m.
+"""Greatest torque (N m) to turn the rotor all the way round, in both directions. The limit is twice the friction
+torque of the rotor; this friction torque is .05 N m in every world. At the speed of the referee's turn, inertia and
+bearing add .01 N m. A rotor that needs .35 N m binds. Our notes on the system of 1973 describe a weaker check: it
+pushes the crank with 40 oz, and so accepts a rotor that needs .35 N m.
 """
 
 ROTOR_PLACE: Final = 0.1
