@@ -106,9 +106,9 @@ def _camera() -> Iterator[Quantity]:
             "height.",
             unsourced=f"the papers do not mention the shape of the raster, and the camera is lost. {DOUBLED}"),
         group("camera.raster", {"drift": Noise(0.3)}, "%",
-            "Shift of each picture from the previous one, as a fraction of half the picture's width and height. "
-            "Sigma is half a pixel. The paper mentions a slight shift between two pictures; section 4 of the "
-            "vision study says up to a pixel."),
+            "Shift of each picture from the previous one: sideways as a fraction of half the picture's width, and "
+            "up or down as a fraction of half its height. Sigma is half a pixel. The paper mentions a slight shift "
+            "between two pictures; section 4 of the vision study says up to a pixel."),
     )  # fmt: skip
 
 
