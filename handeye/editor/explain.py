@@ -165,8 +165,8 @@ REMEDIES: Final[dict[int, Remedy]] = {
     ),
     errors.SEARCH_EXHAUSTED: Remedy(
         "A search has 49 places, or another number if the SEARCH has STEPS. If you do not test for this error, the "
-        "error calls the operator. A call is usually right here, because the hole is not where you search. To give "
-        "up sooner, count the places with SOJG.",
+        "error calls the operator. The call is usually right, because the hole lies outside the searched places. "
+        "To give up sooner, count the places with SOJG.",
         "ASSIGN TRIES 9\nSEARCH .07\nL: MOVE T\nSTOP [0 0 -50]\nCHANGE [0 0 -1] .7\nSKIPN 23 ;it met something\n"
         'JUMP IN\nSOJG TRIES NEXT\nWAIT "NO HOLE HERE"\nNEXT: AOJ L\nIN: OPEN 1',
     ),

@@ -191,7 +191,7 @@ _ROWS: Final[dict[Category, tuple[tuple[str, str, str, str], ...]]] = {
     ),
     "test": (
         ("TESTAI", "x", "Print analog input x.", "TESTAI 3"),
-        ("TESTAO", "x y", "Set analog output x to y. The pump must be off, because no limits are checked.",
+        ("TESTAO", "x y", "Set analog output x to y. The command checks no limits, so the pump must be off.",
          "TESTAO 3 100"),
         ("TESTDO", "x y [mask]", (
             "Set digital output word x to y. If a mask is given, set only the bits that the mask selects. The pump "

@@ -222,7 +222,7 @@ class Game:
         paper = (
             f"the order of tests in the paper finds the part after {counted(usual.tests, 'test')}"
             if usual.part == self.planted.part
-            else f"the order of tests in the paper does not find the part in {counted(usual.tests, 'test')}"
+            else f"the order of tests in the paper needs {counted(usual.tests, 'test')} and does not find the part"
         )
         return [f"{right}: {self.planted.told}. You used {counted(self.tests, 'test')}; {paper}."]
 
