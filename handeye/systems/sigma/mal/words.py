@@ -107,7 +107,7 @@ WORDS: Final[dict[str, Word]] = {
     ),
     "LIMIT": Word(
         "statement", "LIMIT axis, (expression|STANDARD)",
-        "Set the force (in N) above which the axis stops; STANDARD sets the standard limit of the machine again.",
+        "Set the force (in N) above which the axis stops; STANDARD restores the standard limit of the machine.",
         "10 LIMIT Z2, 25",
     ),
     "ACTUATE": Word(
