@@ -135,7 +135,7 @@ class _Contacts:
     carried: bool
     """True if every pair of bodies that touch is a pair that may touch in long steps."""
     delicate: bool
-    """True if at least one of the pairs is not allowed in steps of medium length."""
+    """True if at least one pair of bodies that touch is not allowed in steps of medium length."""
     held: tuple[tuple[int, int], ...]
     """The free bodies that the hand carries, each with the index of its pose among the positions of the simulator.
     Empty if `carried` is false.

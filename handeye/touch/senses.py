@@ -125,8 +125,8 @@ def stood_still(change: float, driven: float) -> bool:
 
 
 EMPTY_GAP: Final = 0.05 * INCH
-"""Greatest reading (m) of the gap when the fingers are closed and empty. The potentiometer is off by up to .02 in; at
-the high level, it is off by up to .04 in.
+"""Greatest reading (m) of the gap when the fingers are closed and empty. The potentiometer is off by up to .02 in; in
+worlds of the high level, by up to .04 in.
 """
 SAME_HOLD: Final = 5e-4  # m; greatest change of the gap in an unchanged hold
 SKEW: Final = 1e-3

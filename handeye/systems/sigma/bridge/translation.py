@@ -288,7 +288,7 @@ class _Translation:
         if isinstance(way, Unknown):
             self._refuse(
                 line,
-                "the line to which ON ABORT leads is different for different axes of this motion, or depends on "
+                "ON ABORT leads to different lines for different axes of this motion, or to a line that depends on "
                 "the path to this motion",
             )
             return []

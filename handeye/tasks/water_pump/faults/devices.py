@@ -277,8 +277,8 @@ def _screwdriver() -> Iterator[DeviceFault]:
         f"{motor}.slow", "The screwdriver's motor turns at the commanded speed times this factor.", motor, GainEffect,
         ExpectedDetection(
             errors=(CURRENT_WRONG,), calls=(detect.loose_screw(1), detect.loose_screw(3)),
-            harmless="A screw that turns more slowly seats equally well. A motor at half its usual speed is "
-            "noticed, because it reaches its lower speed sooner.",
+            harmless="A screw that turns more slowly seats equally well. Half the usual speed is noticed, because "
+            "the motor reaches it too soon.",
         ),
         Size(unit="", usual=0.4, limits=(0.0, 2.0)),
     )  # fmt: skip
