@@ -70,8 +70,8 @@ class JointSensors:
 
 
 _BRAKE_STIFFNESS: Final = ((0.004, 1.0), (0.999, 0.9999, 0.001, 0.5, 2.0))
-"""Constraint stiffness of the brakes. With this stiffness, the arm creeps by less than .01 degrees in 10 s. It stops
-creeping when the simulator lets it sleep.
+"""Constraint stiffness of the brakes. With this stiffness, the arm creeps by less than .01 degrees in 10 s. When the
+simulator puts the arm to sleep, the creeping ends.
 """
 
 

@@ -180,7 +180,7 @@ class Result(Record, frozen=True, kw_only=True):
     referee has not judged the run, or if only a part of the work was undone.
     """
     figures: dict[str, float] | UnsetType = UNSET
-    """Figures that the system of the run adds. The keys are their names."""
+    """Further figures of the run, which only its system measures. The keys are the names of the figures."""
     built: dict[str, Check] | UnsetType = UNSET
     """Findings on the finished work of a job that then undid its work. `referee` has the findings on the state after
     the undoing.

@@ -98,8 +98,8 @@ def _sensed(screws: int) -> Iterator[Obligation]:
         Obligation(finding="motor", claims=(claims.motor_off(),), rests=_SERVO),
         Obligation(
             finding="rest", claims=(claims.released(),),
-            rests="If a part hangs from the hand, the program may not notice: it touches only the parts that other "
-            "findings need.",
+            rests="The program touches only the parts that other findings need, so a part that hangs from the hand "
+            "may remain unnoticed.",
         ),
     )  # fmt: skip
 
