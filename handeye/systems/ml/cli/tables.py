@@ -73,7 +73,7 @@ def tables(
     else:
         if sense:
             raise BadArgument(
-                "--sense applies only to a program (.ml), because only a program is run by this command"
+                "--sense applies only to a program (.ml), because this command runs nothing else"
             )
         done = _recorded(run_or_newest(file))
     cycle = _cycle(at, done)

@@ -200,7 +200,7 @@ _ROWS: Final[dict[Category, tuple[tuple[str, str, str, str], ...]]] = {
     ),
     "host": (
         ("CMSDUMP", "f", "Write the stored program to a file of the host.", "CMSDUMP FOLLOW"),
-        ("CMSLOAD", "f", "Read a program from a file of the host, in place of the stored program.", "CMSLOAD FOLLOW"),
+        ("CMSLOAD", "f", "Replace the stored program by a program from a file of the host.", "CMSLOAD FOLLOW"),
         ("DHAND", "x11 [x12]", "Change the separation of the fingers by x11, and the angle between them by x12.",
          "30 DHAND -50"),
         ("GOLINE", "n1 n2", (

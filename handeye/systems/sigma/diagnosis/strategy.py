@@ -150,7 +150,7 @@ class Strategy:
                 )
             raise Found(f"driver of {axis}", "the axis reaches neither switch")
         if far.status is Status.FREE and far.count == far.steps:
-            raise Found(f"high switch of {axis}", "the motor runs to the end of its pulses, past the switch")
+            raise Found(f"high switch of {axis}", "the motor makes all its steps, past the switch")
         if far.status is Status.FREE:
             raise Found(f"status line A of {axis}", "the switch stops the motor, but the line stays low")
         if not far.count:

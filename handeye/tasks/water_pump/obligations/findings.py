@@ -44,7 +44,7 @@ def _sensed(screws: int) -> Iterator[Obligation]:
         Obligation(finding="gasket_height", claims=heads, rests=_LAYERS),
         Obligation(
             finding="gasket_place", claims=(claims.gasket(),),
-            rests="The pictures show a displaced gasket only if one of its edges is visibly out of place.",
+            rests="A displaced gasket is noticed only if the pictures show one of its edges out of place.",
         ),
         Obligation(finding="top_height", claims=heads, rests=_LAYERS),
         Obligation(
