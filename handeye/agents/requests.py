@@ -149,7 +149,9 @@ class Advance(Request, frozen=True, kw_only=True):
     ) = None
     answer: Annotated[
         Literal["retry", "proceed", "skip"] | None,
-        Meta(description="Answer this to the program's call to the operator, and then continue the run."),
+        Meta(
+            description="Give this answer when the program has called the operator, and then continue the run."
+        ),
     ] = None
 
 

@@ -139,13 +139,13 @@ worlds of seeds 1 to 6, the gap closed by up to .8 mm or widened by up to .44 mm
 by more than .5 mm.
 """
 OFF_MIDDLE: Final = 3e-3
-"""Permitted distance (m), along the line of the fingers, between an object and the middle of the fingers when they
-close on the object again.
+"""Permitted distance (m), along the line of the fingers, between an object and the middle of the fingers. The limit
+applies when the fingers close on an object that they have held before.
 
-An object that was carried and set down may have slid between the fingers by SKEW, and turned by 2 degrees. If the
-fingers then grasp the object 57 mm from the place where they held it, as on the walls of the pump base, the turn
-displaces the grasped place by 2 mm. In eight pumps, the measured displacement was at most 1.8 mm on these walls, and
-1.0 mm elsewhere (from play in a hole or rack, and compliance of the arm while it held the object).
+An object that was carried and set down may have slid between the fingers by SKEW, and turned by 2 degrees. The fingers
+may then grasp the object 57 mm from their earlier hold, as on the walls of the pump base. At this distance, the turn
+displaces the object by 2 mm. In eight pumps, the measured displacement was at most 1.8 mm on these walls, and 1.0 mm
+elsewhere (from play in a hole or rack, and compliance of the arm while it held the object).
 """
 
 

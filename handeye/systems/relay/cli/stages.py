@@ -55,7 +55,7 @@ def stages(
     camera: Camera = "auto",
     options: SweepOptions = ANY,
 ) -> int:
-    """Do stages of the pump in several languages, which all start from the same state in each world.
+    """Do stages of the pump in several languages, from the same state in each world.
 
     In each world, and for each stage, the careful program (`water_pump.al`) first does all earlier stages. A program
     in each language then continues from this state and does the stage, and the referee judges the pump as it is after

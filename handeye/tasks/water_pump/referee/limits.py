@@ -104,8 +104,8 @@ APART: Final = 3.0  # mm from where the run found a part: the next run must find
 APART_GASKET: Final = 6.0
 """Greatest distance of the returned gasket from its original position (mm). When the fingers close on the gasket, they
 first drag it along its stand, by 3.3 mm in the world of seed 0, and then lift it. The arm returns the gasket to the
-place from which it was lifted. If the gasket were displaced by 6.4 mm, the fingers of the next run would not fit into
-its holes.
+place from which it was lifted. In the next run, the fingers would not fit into the holes of a gasket that is displaced
+by 6.4 mm.
 """
 APART_TURN: Final = 3.0
 """Greatest turn (degrees) of a part. If a part that is as long as the base is turned by this angle, its end moves by

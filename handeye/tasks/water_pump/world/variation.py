@@ -176,8 +176,8 @@ def _parts() -> Iterator[Quantity]:
         group("parts.driver", play, "%", played, greatest=IN_PLAY),
         *(_of(k, group(f"parts.screws.{k}", play, "%", played, greatest=IN_PLAY)) for k in numbers),
         group("parts.driver", {"yaw": Uniform(0.3)}, "deg",
-            "Rotation of the screwdriver in its guides. The width of the guides allows this rotation, in addition "
-            "to the play of the screwdriver's position.", greatest=0.6),
+            "Rotation of the screwdriver in its guides. The guides are wide enough for this rotation and for the "
+            "play of the screwdriver's position together.", greatest=0.6),
         [Quantity(name="part_mass", unit="%", distribution=Normal(2.0), limits=(-90.0, MOST["%"]), source=masses,
                   unsourced=cast)],
         rubbing(RUBBING),
