@@ -110,7 +110,7 @@ def restore_docstring(command: object) -> None:
 
 
 def add_commands(app: App, table: str, folder: str = "") -> None:
-    """Add the commands of a table; existing commands stay. Without `folder`, the table gives the full names of
+    """Add the commands of a table; existing commands stay. If `folder` is empty, the table must give the full names of
     modules.
     """
     for line in table.strip().splitlines():

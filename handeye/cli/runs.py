@@ -334,4 +334,6 @@ def check_kept(no_keep: bool, out: Path | None) -> None:
 def _check_live(live: bool, step: bool) -> None:
     """Raises InvalidInput for --live without --step."""
     if live and not step:
-        raise BadArgument("--live needs --step: --live shows the lines of a stepped run as they begin")
+        raise BadArgument(
+            "--live needs --step: it prints each line of the program when the run begins this line"
+        )

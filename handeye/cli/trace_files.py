@@ -23,7 +23,9 @@ RunOrEvents = Annotated[
 
 
 def run_or_newest(given: Path | None) -> Path:
-    """The given run or, with a printed note, the newest run; raises InvalidInput if there is none."""
+    """The given run. If no run is given, the newest run, which a printed note names; raises InvalidInput if there is
+    no run.
+    """
     if given is not None:
         return given
     from handeye.runs.unnamed_runs import newest_runs

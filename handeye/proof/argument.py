@@ -26,7 +26,7 @@ def argument(proof: Proof, program: Program) -> Iterator[str]:
     unnoticed = [finding for finding in proof.findings if not finding.claims]
     if unnoticed:
         yield ""
-        yield "No program has to show that these findings hold:"
+        yield "A program need not show that these findings hold:"
         for rests, some in groupby(unnoticed, key=lambda finding: finding.rests):
             yield f"  {_listed([finding.finding for finding in some])}: {rests}"
     if any(finding.claims for finding in proof.findings):

@@ -133,10 +133,10 @@ SKEW: Final = 1e-3
 """Permitted change (m) of the gap on an object that has turned between the fingers. If the contact is an inch long, a
 turn of 2 degrees changes the gap by .9 mm.
 
-An object that is grasped again lies straighter, and CENTER holds it only lightly. An object that was pushed against
-blocks lies more askew. We measured these changes. On pins, the gap closed by .5 mm. On the base of the pump, in the
-worlds of seeds 1 to 6, the gap closed by up to .8 mm or widened by up to .44 mm. In the world of seed 1001, it widened
-by more than .5 mm.
+CENTER holds an object only lightly. An object that is grasped again lies straighter than before, and an object that
+was pushed against blocks lies more askew. We measured how this changes the gap. On pins, the gap closed by .5 mm. On
+the base of the pump, in the worlds of seeds 1 to 6, the gap closed by up to .8 mm or widened by up to .44 mm. In the
+world of seed 1001, it widened by more than .5 mm.
 """
 OFF_MIDDLE: Final = 3e-3
 """Permitted distance (m), along the line of the fingers, between an object and the middle of the fingers. The limit

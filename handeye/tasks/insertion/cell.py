@@ -31,8 +31,8 @@ HOLDER: Final = (15 * INCH, 35 * INCH)
 FACE: Final = base_top()  # height of the face around the hole, m
 CORNERS: Final = 48  # corners of a section of the nose; between two corners, the nose is .005 mm slimmer
 WEDGES: Final = 24
-"""Number of wedges around the hole. Between two wedges, the hole is .02 mm wider, but the nose of the pin is round, so
-the play of the pin grows only from .057 mm to at most .063 mm.
+"""Number of wedges around the hole. Between two wedges, the hole is .02 mm wider. Because the nose of the pin is
+round, the play of the pin grows by less: from .057 mm to at most .063 mm.
 """
 PUSH: Final = "push"
 """Name of the sensor for the resultant force (N, in frame W) of all contacts between plate and pin. No device reads
