@@ -59,6 +59,6 @@ class Obligation(Record, frozen=True, kw_only=True):
     claims: tuple[Claim, ...] = ()
     rests: str  # sentence: on what the argument rests besides the claims, or how much may remain unnoticed
     unnoticed: float | None = None
-    """The largest value of the finding (in the finding's unit) at which a failure may remain unnoticed; None if no
-    number is stated for it.
+    """The largest value of the finding (in the finding's unit) at which a failure may remain unnoticed; None if this
+    value is not stated as a number.
     """

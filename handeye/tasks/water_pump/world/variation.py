@@ -50,7 +50,7 @@ def variation() -> Variation:
             "screwdriver", {"torque_noise": Noise(0.004)}, "N m",
             "Noise of the screwdriver's motor current, expressed as a torque.",
             unsourced="the noise is about a hundredth of the torque at which the clutch of the screwdriver slips. "
-                "Bound: .02 N m, the torque of a clean thread, which the program can feel.",
+            "Bound: .02 N m, because the program can feel the torque of a clean thread, which is .02 N m.",
         ),
         *_camera(), *_light(), *_fixtures(), *_holes(), *_parts(),
     )  # fmt: skip
