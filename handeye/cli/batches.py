@@ -221,9 +221,9 @@ def compare_trials(
     error of the world, changes the success rate.
 
     All batches must be of the same kind. Each comparison counts only the trials that are in both of its batches. `p`
-    is the p-value of McNemar's exact test. The test looks at the trials that succeeded in only one of the two batches.
-    If neither batch is better, `p` is the probability that chance divides these trials at least as unequally between
-    the two batches as they are divided here.
+    is the p-value of McNemar's exact test. The test uses only the worlds in which one batch succeeded and the other
+    failed. `p` is the probability that chance alone splits these worlds between the two batches at least as unevenly
+    as they were split.
     """
     from handeye.trials.comparing import paired
     from handeye.trials.folder import read_batch

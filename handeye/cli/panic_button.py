@@ -36,8 +36,8 @@ class PanicButton:
 
     @contextmanager
     def aside(self) -> Iterator[None]:
-        """While the context is open, the user answers a question, so Ctrl-C interrupts as usual. After a `kill`,
-        no more questions are asked.
+        """While the context is open, the user is answering a question, and Ctrl-C interrupts as usual. Raises
+        ToldToEnd if a `kill` has already asked the program to end.
         """
         if self._told:
             raise ToldToEnd

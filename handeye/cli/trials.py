@@ -201,7 +201,8 @@ def chaos_trials(
     schedule: Annotated[
         list[str] | None,
         Parameter(
-            help="Run this schedule, written as this command prints it, instead of random schedules. May be repeated.",
+            help="Schedule to run instead of random schedules, in the form in which the command prints schedules. "
+            "May be repeated.",
             consume_multiple=False,
         ),
     ] = None,
