@@ -52,9 +52,9 @@ TOOLS: Final = (
     ),
     Tool(
         name="run", takes=requests.Advance, act=Toolbox.run, changes=True, queues=True,
-        about="Begin a run of a script in a simulated world, or continue a run: to a place, for some steps, or to the "
-        "end. Returns what each step did, and where the run pauses. A whole pump takes minutes. If the call is "
-        "cancelled, the run pauses.",
+        about="Begin a run of a script in a simulated world, or continue a run: to a place, for some steps, or to "
+        "the end. Returns what each step did, and where the run pauses. A run of the whole assembly takes minutes. "
+        "If the call is cancelled, the run pauses.",
     ),
     Tool(
         name="state", takes=requests.StateOf, act=Toolbox.state, queues=True,

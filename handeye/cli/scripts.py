@@ -168,8 +168,8 @@ def plan(
     Parameters
     ----------
     output
-        File for the plan. By default, the file is next to the script, or in the current folder if you name a program of
-        handeye; its ending is .plan.json. An earlier plan at the default place is replaced; to replace another file,
+        File for the plan. The default is a file with the ending .plan.json next to the script; for a program of
+        handeye, in the current folder. An earlier plan at the default place is replaced; to replace another file,
         give --overwrite.
     """
     script, work = script_at(file, task)

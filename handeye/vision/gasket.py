@@ -46,8 +46,8 @@ BESIDE: Final = 0.3 * INCH  # distance (m) from a hole's border to where the dif
 BEFORE_STEP: Final = 0.38
 BRIGHT: Final = 0.65
 """BEFORE_STEP and BRIGHT apply to the picture that was taken before the gasket was laid. In that picture, a step of
-intensity is a border if it exceeds BEFORE_STEP times the contrast. A point belongs to the face if its intensity
-exceeds BRIGHT times the intensity of the face.
+intensity is a border if it exceeds BEFORE_STEP times the contrast. The intensity of the face is measured on a ring
+around each hole; a point that is brighter than BRIGHT times this intensity belongs to the face.
 """
 ROUNDS: Final = 2  # searches for the base's largest hole, each starting from the previous one
 RAYS: Final = 32
