@@ -46,7 +46,7 @@ GAP_OFFSET: Final = (
 )  # m by which the gap may be off; like GAP_SCALE, three times the doubled stated error
 GAP_SCALE: Final = 0.03  # as a fraction of the gap
 STARTING_TORQUE: Final = 0.05
-"""Torque (N m) of a starting motor until the spindle has reached its speed: 7 ounce-inches."""
+"""Torque (N m) of the screwdriver's motor from its start until the spindle has reached its speed: 7 ounce-inches."""
 STALLED_TORQUE: Final = 0.37
 """Greatest torque of the motor (N m): the torque of the slipping clutch, plus the torque that turns the spindle."""
 STARTING_PERIODS: Final = 4

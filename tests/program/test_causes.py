@@ -146,7 +146,7 @@ WORDS: list[tuple[c.Cause, str]] = [
     ),
     (
         s.MotorSlow(share=0.4),
-        "the motor stopped speeding up after only 0.4 of the usual time, so it turns too slowly",
+        "the motor stopped speeding up after only 0.4 times the usual time, so it turns too slowly",
     ),
     (
         s.GapAstray(gap=0.5 * INCH, goal=1.8 * INCH),

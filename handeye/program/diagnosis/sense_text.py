@@ -63,7 +63,7 @@ def doubt_sentence(cause: s.SenseCause) -> str:
             return f"{short}: the current sensor reads no higher, or the motor is weak"
         case s.MotorSlow():
             return (
-                f"the motor stopped speeding up after only {cause.share:.1f} of the usual time, "
+                f"the motor stopped speeding up after only {cause.share:.1f} times the usual time, "
                 "so it turns too slowly"
             )
         case s.MotorFast():
