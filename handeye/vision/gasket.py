@@ -58,8 +58,8 @@ wider than the part that an aligning pin hides.
 CLEAR: Final = 0.06 * INCH
 """A border point of the base counts only if it lies within this distance (m) of the apparent circle of the hole.
 
-The apparent size of the hole depends on the scale of the camera, which may be off by 5 % (in the world of seed 54010
-at the high level).
+The apparent size of the hole depends on the scale of the camera, which may be off: in the world of seed 54010 at the
+high level, it is off by 5 %.
 """
 
 

@@ -126,7 +126,7 @@ _UNSENSED: Final = {
     "threads_scarred": "The arm does not feel a scar; the referee only warns of one.",
     "floor": "No step looks under the table.",
     "tray": (
-        "In the simulation, the screw's own body stays on its tray while a carrier represents the screw in its thread."
+        "In the simulation, a carrier represents a screw in its thread; the body of the screw stays on a tray."
     ),
     "still": "No step waits to see whether a part comes to rest.",
     "arm_still": (
