@@ -31,7 +31,7 @@ def mutant_trials(
     most: Annotated[
         WholeNumber,
         Parameter(
-            help="Run each mutant with at most this number of faults, one fault in each run; 0: only prove, and run "
+            help="Greatest number of faults to run each mutant with. Each run has one fault. 0: only prove, and run "
             "nothing."
         ),
     ] = 5,

@@ -215,7 +215,7 @@ def rare_trials(*, options: SampleOptions = ANY_SAMPLE) -> int:
     in which the program comes closest to failing. The next level is a sample of worlds in which the program comes at
     least this close to failing. The estimate of the probability is a product: one tenth for each level except the
     last, times the fraction of worlds of the last level in which the program fails. This estimate is not an upper
-    bound. Only a run in a world decides whether the program fails there.
+    bound. Whether the program fails in a world is always found by a run in that world, never estimated.
 
     Exit code 0: no silent failure; 3: in some world, the program reported success but the referee disagreed; 2: bad
     input; 130: interrupted.

@@ -412,7 +412,10 @@ def told_orders(name: str, program: MalProgram, result: Interleavings) -> Iterat
             yield from (f"    {line}" for line in schedule_lines(finding.schedule))
         shown.add(finding.kind)
     if lines := unreached_lines(program, result):
-        yield f"not checked: no order reaches {lines} (in this check, sensors answer 0 and no motion is aborted)"
+        yield (
+            f"not checked: {lines}, which no order of the tasks reaches (in this check, sensors answer 0 and no "
+            "motion is aborted)"
+        )
     count = counted(result.states, "state")
     orders = (
         "all orders were tried"
