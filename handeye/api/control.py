@@ -62,7 +62,9 @@ def take_control(runner: Runner, controller: Controller, seconds: float) -> str:
         done = runner.control(name, _checked(name, controller, runner), most)
     except Halted:
         runner.rollback()
-        return f"the panic button stopped the controller {name}, and the servo periods of the controller were undone"
+        return (
+            f"the panic button stopped the controller {name}; the run is back in its state before the control"
+        )
     except BaseException:  # in code of the caller, or in the simulation
         runner.rollback()
         raise

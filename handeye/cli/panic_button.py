@@ -12,8 +12,8 @@ from handeye.core.signals import ToldToEnd, break_in, heard
 
 
 class PanicButton:
-    """While the context is open, Ctrl-C presses the panic button. If the first press has no effect, the second one
-    interrupts as usual.
+    """While the context is open, Ctrl-C presses the panic button. If the program has not yet noticed the first press,
+    the second Ctrl-C interrupts the program as usual.
     """
 
     def __init__(self) -> None:

@@ -107,7 +107,7 @@ def _check_weighed(arm: ArmModel, links: Array) -> None:
     if abs(links[doubted] - 1) > PLAUSIBLE:
         joint = arm.joints[doubted].name
         raise FrictionUnknown(
-            f"the links could not be weighed: according to the measurement, the link of the {joint} is "
+            f"the measured weights of the links are not plausible: the link of the {joint} seems "
             f"{links[doubted]:.2f} times as heavy as in its drawing, so a drive does not give its commanded torque"
         )
 

@@ -133,7 +133,9 @@ def _careful(legs: "Iterable[StageLeg]") -> "StageLeg":
 
 
 def _run_careful(careful: "Setup", folder: Path, cases: "Sequence[Case]", options: SweepOptions) -> None:
-    """Run the careful program in each world in which a trial is missing, unless the folder already has this run."""
+    """Run the careful program in each world in which a trial is missing. If the folder already contains the careful
+    program's run in a world, this run is not repeated.
+    """
     from msgspec.structs import replace
 
     from handeye.trials.folder import kept_trials

@@ -136,8 +136,8 @@ _UNSENSED: Final = {
     "overlap_bores": "In the simulation, solids do not pass through each other.",
     "overlap": "In the simulation, solids do not pass through each other.",
     "as_drawn": "In the simulation, no part changes during a run.",
-    "bonds": "In the simulation, bonds open and close only as the work requires.",
+    "bonds": "In the simulation, a bond opens or closes only when the assembly requires it.",
     "held": "In the simulation, only the arm acts on the parts.",
     "numbers": "In the simulation, all numbers are finite.",
 }
-"""Findings that programs need not show, each with the reason."""
+"""Findings of the referee that no program has to prove, each with the reason."""
