@@ -217,7 +217,7 @@ class _Work:
     # -- carrying out ---------------------------------------------------------------------------------
 
     def _parts(self, runner: Runner) -> Pause:
-        """Assemble, then undo and assemble again as often as requested, as long as the referee accepts each result."""
+        """Assemble, then carry out the further parts of the job. Stop early if the referee rejects a result."""
         pause = runner.kind.carry_out(runner, lambda: self._attended(runner))
         for part in self.job.then:
             if pause.kind != "end" or not all_right(findings(runner, pause)):

@@ -79,9 +79,8 @@ ONCE: Final = {
     NOTHING_HELD: (NOT_WHERE_SEEN, NOT_LIFTED, NO_DRIVER, NO_TOP),
     SEARCH_EXHAUSTED: (PIN_IN_NO_HOLE, ON_PINS, SCREW_IN_NO_HOLE, NOT_WHERE_SEEN, NO_BASE),
 }
-"""For each error, the calls to the operator that have the same meaning. If there is a fault, the careful program calls
-the operator with one of these calls. A program that tries every step only once, like the program of 1973, ends with
-the error instead.
+"""For each error, the calls to the operator that have the same meaning as the error. Where a program that tries every
+step only once, like the program of 1973, ends with the error, the careful program makes one of these calls.
 """
 
 STIFF_ROTOR: Final = "THE ROTOR IS HARD TO TURN, OR A JOINT OF THE ARM IS"
