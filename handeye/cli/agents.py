@@ -204,7 +204,7 @@ def _try(chosen: "list[BenchTask]", folder: Path, kind: 'Literal["verdict", "err
 
 
 def _check(chosen: "list[BenchTask]", *, json: bool) -> int:
-    """Check tasks, and print the verdicts on their own solutions."""
+    """Judge the reference solution and the trivial solution of each task, and print the verdicts."""
     from rich.table import Table
 
     from handeye.agents.bench_check import checked

@@ -190,7 +190,8 @@ def _microseconds(begin: float | None, end: float) -> tuple[int, int]:
     first = begin or 0.0
     if not 0 <= first < end <= _LONGEST_DIAGRAM:
         raise BadArgument(
-            f"a diagram must begin at 0 s or later and end after its beginning, not go from {first:g} to {end:g} s"
+            "a diagram must begin at 0 s or later, and end after its beginning, within the first "
+            f"{_LONGEST_DIAGRAM:g} s; the given times are {first:g} s and {end:g} s"
         )
     return round(first * 1e6), round(end * 1e6)
 
