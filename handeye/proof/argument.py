@@ -35,9 +35,9 @@ def argument(proof: Proof, program: Program) -> Iterator[str]:
 
 
 _RESTS: Final = (
-    "The argument assumes that the senses work, that the limits are right, and that a shift by RESTORE or by a search "
-    "leads where it should. A call to the operator counts as a stop, and so does an error that no step tests. The "
-    "proof does not follow the answers of the operator."
+    "The argument assumes that the senses work, that the limits are right, and that RESTORE and the searches shift "
+    "a position by the right amount. A call to the operator counts as a stop, and so does an error that no step "
+    "tests. The proof does not follow the answers of the operator."
 )
 
 

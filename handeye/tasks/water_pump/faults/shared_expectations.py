@@ -33,8 +33,8 @@ table or the blocks. The joint's two sensors agree, and the camera is calibrated
 parts in the cell reveal the error.
 """
 JOINT_OR_PLACE: Final = "{what}, OR A JOINT READS WRONG"
-"""Calls to the operator if a fixture or part is not at its expected or earlier place, or if a hole or pin is not
-found. Either the object is out of place, or the gear or the potentiometer of a joint is faulty.
+"""Calls to the operator if a fixture or part is not where the program expects it, or if a hole or pin is not found.
+Either the object is out of place, or the gear or the potentiometer of a joint is faulty.
 """
 UNSEEN: Final = "THE BASE IS NOT SEEN ON THE BELT: ITS {what}"
 NOT_WHERE_SEEN: Final = (
