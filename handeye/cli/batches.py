@@ -83,9 +83,10 @@ def assembly_trials(
 ) -> int:
     """Assemble in many worlds, to learn the success rate with its confidence interval, and what failed where.
 
-    The figures are the same for any number of processes. A trial whose process is killed is repeated once; an
-    exception counts as a failure. Trials that ended because this computer failed are repeated when the batch
-    continues. With --out, the command also writes figures.html, a page with the figures, into the folder of the batch.
+    The figures are the same for any number of processes. A trial whose process is killed is repeated once. A trial
+    that raises an exception counts as a failure. Trials that ended because this computer failed are repeated when the
+    batch continues. With --out, the command also writes figures.html, a page with the figures, into the folder of the
+    batch.
 
     Exit code 0: no silent failure; 1: no trial finished; 3: a silent failure: in some world, the program reported
         success but the referee disagreed; 2: bad input; 130: interrupted.

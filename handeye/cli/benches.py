@@ -58,21 +58,21 @@ def insertion(
         float | None,
         Parameter(
             help="Diametral clearance between hole and pin, mm: .05 to 1. Default: .114 if --chamfer or --sd is "
-            "given, otherwise all clearances of the command's grid."
+            "given; if neither is given, the command tries several clearances."
         ),
     ] = None,
     chamfer: Annotated[
         float | None,
         Parameter(
-            help="Chamfer of the hole, mm: 0 (a sharp edge) to 2. Default: 1 if --clearance or --sd is given, "
-            "otherwise all chamfers of the command's grid."
+            help="Chamfer of the hole, mm: 0 (a sharp edge) to 2. Default: 1 if --clearance or --sd is given; if "
+            "neither is given, the command tries several chamfers."
         ),
     ] = None,
     sd: Annotated[
         float | None,
         Parameter(
-            help="Standard deviation of the hole's position error along each axis, mm: 0 to 5. Default: 1 "
-            "if --clearance or --chamfer is given, otherwise the deviations of the grid."
+            help="Standard deviation of the hole's position error along each axis, mm: 0 to 5. Default: 1 if "
+            "--clearance or --chamfer is given; if neither is given, the command tries several deviations."
         ),
     ] = None,
     search: Annotated[

@@ -110,8 +110,8 @@ def restore_docstring(command: object) -> None:
 
 
 def add_commands(app: App, table: str, folder: str = "") -> None:
-    """Add the commands of a table; existing commands stay. If `folder` is empty, the table must give the full names of
-    modules.
+    """Add the commands of a table. A command that `app` already has under the same name is not replaced. If `folder`
+    is empty, the table must give the full names of modules.
     """
     for line in table.strip().splitlines():
         named, sentence = line.split(": ", 1)
