@@ -24,7 +24,7 @@ _FINEST: Final = 10**6
 steps in a second.
 """
 FASTEST: Final = 1000.0
-"""Greatest plausible speed, in m/s and rad/s. Only a failure of the contact solver makes a body on a bench faster."""
+"""Greatest plausible speed, in m/s and rad/s. A body on a bench exceeds this speed only if the contact solver fails."""
 _STRETCH: Final = Fraction(1, 60)  # longest time (s) for which the action of mechanisms may stay constant
 
 

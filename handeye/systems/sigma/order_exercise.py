@@ -91,7 +91,8 @@ SHARE: Final = OrderExercise(
         (KINDS["flag"], "Let the feeder wait until its last signal has been taken."),
         (
             KINDS["deadlock"],
-            "Which task sets the flag that this task waits for? And which task is the first to set this flag?",
+            "Which task sets the flag that this task waits for? Which task must set the flag for the first time, "
+            "before any task takes it?",
         ),
     ),
 )

@@ -28,9 +28,9 @@ DRIVE_FIRST: Final = "drive the first two screws"
 DRIVE_LAST: Final = "drive the last four screws"
 
 ASTRAY: Final = "{what}: THE BASE IS LOST, OR A JOINT READS WRONG"
-"""Calls to the operator when the readings of a joint have been wrong from the beginning. These calls do not name the
-table or the blocks. The joint's two sensors agree, and the camera is calibrated with the wrong readings, so only the
-parts in the cell reveal the error.
+"""Calls to the operator when the readings of a joint have been wrong from the beginning. They blame the base or a
+joint, never the table or the blocks. The joint's two sensors agree, and the camera is calibrated with the wrong
+readings, so only the parts in the cell reveal the error.
 """
 JOINT_OR_PLACE: Final = "{what}, OR A JOINT READS WRONG"
 """Calls to the operator if a fixture or part is not where the program expects it, or if a hole or pin is not found.
