@@ -56,8 +56,8 @@ jammed the screw. Placeholder: the value has no source.
 THREAD_FRICTION: Final = 0.15  # steel on steel, dry. Assembly study.
 THREAD_RADIUS: Final = 0.00345  # m, mean thread radius over the cosine of the flank. Assembly study.
 STIFF: Final = (0.999, 0.9999, 0.0001)
-"""Constraint impedance of a thread. With MuJoCo's default impedance, a screw under load made two more turns without
-going deeper, as we measured.
+"""Constraint impedance of a thread. With MuJoCo's default impedance, a screw under load made two further turns without
+going deeper: we measured this.
 """
 
 MOTOR_STIFFNESS: Final = 0.032  # N m s/rad: twice the stall torque at 20 rad/s. Assembly study.

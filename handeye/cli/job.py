@@ -113,8 +113,8 @@ class _Work:
         """The last checkpoint that was saved outside the folder of the run."""
 
     def _unnamed(self) -> UnnamedRun | None:
-        """A folder for the run, if the user named none. None if the folder cannot be made: the run then continues
-        without one.
+        """Return a folder for a run for which the user named no folder. Returns None if unnamed runs are not saved, or
+        if the folder cannot be made: the run then continues without a folder.
         """
         home = runs_folder()
         if home is None:

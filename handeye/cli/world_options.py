@@ -29,10 +29,10 @@ Faults = Annotated[
         name="--fault",
         group=WORLD,
         consume_multiple=False,
-        help="A fault: NAME or NAME=VALUE. Add @STAGE to begin the fault at that stage instead of at the start. A "
-        "fault of the arm in a job of ML begins after a time, such as @30s. `handeye faults --list` lists the "
-        "faults of the pump; with `--task NAME`, the command lists the faults of another task. To plant several "
-        "faults, repeat --fault.",
+        help="A fault: NAME or NAME=VALUE. Add @STAGE to begin the fault at that stage instead of at the start. The "
+        "jobs of ML have no stages: to begin a fault of the arm at a given time, add a time, such as @30s. `handeye "
+        "faults --list` lists the faults of the pump; with `--task NAME`, the command lists the faults of another "
+        "task. To plant several faults, repeat --fault.",
     ),
 ]
 

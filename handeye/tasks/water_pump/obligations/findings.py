@@ -123,7 +123,10 @@ _SERVO: Final = (
 )
 _UNSENSED: Final = {
     "screws_hold": "To test whether a screw holds, the arm would have to loosen the screw.",
-    "threads_scarred": "The arm does not feel a scar; the referee only warns of one.",
+    "threads_scarred": (
+        "The arm does not feel a scar in a thread. The referee does not reject a scarred thread, but adds a "
+        "caution."
+    ),
     "floor": "No step looks under the table.",
     "tray": (
         "In the simulation, a carrier represents a screw in its thread; the body of the screw stays on a tray."
