@@ -68,7 +68,7 @@ CODES: Final[dict[str, Code]] = {
     ),
     "empty-program": _error("the program has no instructions", "; nothing"),
     "endless-loop": _warning(
-        "a loop that moves the arm has no exit: only an error for which the program has no test can end the loop",
+        "a loop that moves the arm has no exit except an error for which the program has no test",
         "L: MOVE T\nJUMP L",
     ),
     "error-never-raised": _warning(
