@@ -153,8 +153,8 @@ def run(
         bool | None,
         Parameter(
             negative="--no-judge",
-            help="Have the referee, which knows the true state of the cell, judge the result. Default: only if the "
-            "plan is given by the name of a program.",
+            help="Have the referee judge the result; the referee knows the true state of the cell. Default: only if "
+            "the plan is given by the name of a program.",
         ),
     ] = None,
     json: Json = False,

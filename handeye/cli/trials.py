@@ -225,13 +225,13 @@ def chaos_trials(
     retries, skips, proceeds or aborts. The same schedule then runs again without its interruptions.
 
     There are six checks. `silent`: the program never reports success with a wrong pump. `resume`: trace, events and
-    state are the same to the byte as without interruptions. `brakes`: the brakes are on after every stop. `trace`: the
-    trace can be read and says what happened. `disk`: nothing is lost on disk. `error`: no exception is raised. If a
-    schedule fails, the trial removes its elements one by one, and keeps only the elements that are needed for the
-    failure. The trial then prints this shortest failing schedule as a command. If a fault spoiled a part of the pump
-    only after the program's last look at this part, the schedule counts as `unseen`, not as `silent`. Before the
-    schedules, the command makes one complete run in each world. A complete run takes one CPU minute, and a schedule
-    takes some seconds.
+    state are the same, to the byte, as in the run without interruptions. `brakes`: the brakes are on after every stop.
+    `trace`: the trace can be read and says what happened. `disk`: nothing is lost on disk. `error`: no exception is
+    raised. If a schedule fails, the trial removes its elements one by one, and keeps only the elements that are needed
+    for the failure. The trial then prints this shortest failing schedule as a command. If a fault spoiled a part of
+    the pump only after the program's last look at this part, the schedule counts as `unseen`, not as `silent`. Before
+    the schedules, the command makes one complete run in each world. A complete run takes one CPU minute, and a
+    schedule takes some seconds.
 
     Exit code 0: all checks passed; 3: a check failed; 2: bad input; 130: interrupted.
     """

@@ -264,8 +264,8 @@ def _screwdriver() -> Iterator[DeviceFault]:
         ExpectedDetection(errors=(CURRENT_WRONG,)),
     )  # fmt: skip
     within = (
-        "The noise of the current hides a factor near 1: a factor of 1.1 when a screw seats, and a factor of .7 "
-        "when the motor starts."
+        "The noise of the current hides a factor up to 1.1 when a screw seats, and a factor down to .7 when the "
+        "motor starts."
     )
     yield _fault(
         f"{current}.factor", "The current of the screwdriver's motor shows the true torque times this "
