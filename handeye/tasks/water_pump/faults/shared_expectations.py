@@ -28,8 +28,8 @@ DRIVE_FIRST: Final = "drive the first two screws"
 DRIVE_LAST: Final = "drive the last four screws"
 
 ASTRAY: Final = "{what}: THE BASE IS LOST, OR A JOINT READS WRONG"
-"""Calls to the operator when the readings of a joint have been wrong from the beginning. They blame the base or a
-joint, never the table or the blocks. The joint's two sensors agree, and the camera is calibrated with the wrong
+"""Calls to the operator when the readings of a joint have been wrong from the beginning. These calls blame the base or
+a joint, never the table or the blocks. The joint's two sensors agree, and the camera is calibrated with the wrong
 readings, so only the parts in the cell reveal the error.
 """
 JOINT_OR_PLACE: Final = "{what}, OR A JOINT READS WRONG"
