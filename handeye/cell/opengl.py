@@ -180,7 +180,7 @@ def context() -> tuple[str, Any]:
                 continue
             return name, gl
     if present and set_here:
-        reasons.append(f"run handeye again without {' and '.join(set_here)} in the environment")
+        reasons.append(f"unset {' and '.join(set_here)}, and run handeye again")
     if not reasons:
         reasons.append("on Debian, install libegl1, libgl1-mesa-dri and libopengl0")
     raise Refused(

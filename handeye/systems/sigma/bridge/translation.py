@@ -258,7 +258,8 @@ class _Translation:
         settings = [*limits, *(before.speeds[name] for name in moved)]
         if any(isinstance(value, Unknown) for value in settings):
             self._refuse(
-                line, "the LIMIT or the SPEED of its motors depends on how the program reached this line"
+                line,
+                "the LIMIT or the SPEED of an axis that this line moves depends on how the program reached this line",
             )
             return []
         for name, place in moved.items():

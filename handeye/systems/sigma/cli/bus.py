@@ -211,7 +211,8 @@ def errors(
     seed: Annotated[
         WholeNumber,
         Parameter(
-            help="Seed of the world: it determines the bytes, the clocks, and when receivers become free."
+            help="Seed of the random numbers: the bytes of the commands, the errors of the clocks, and the times at "
+            "which receivers become free."
         ),
     ] = 0,
     json: Json = False,
