@@ -81,7 +81,7 @@ CODES: Final[dict[str, Code]] = {
         phase="strict",
     ),
     "finding-undecided": _proof(
-        "the prover cannot decide whether the program always notices when a finding of the referee does not hold",
+        "the prover cannot decide whether every path through the program shows that a finding of the referee holds",
         "HERE A\nPARK\nMOVE A",
     ),
     "finding-unnoticed": _proof(
