@@ -111,7 +111,7 @@ def insertion(
         cases,
         head_of(INSERTION, world, camera="ray"),
         options,
-        title=f"insertion bench with {PROGRAMS[search]}, in worlds whose seeds count up from {seed}",
+        title=f"insertion bench with {PROGRAMS[search]}, in worlds with seeds from {seed} upwards",
     )
 
 

@@ -55,7 +55,7 @@ class Job(Record, frozen=True, kw_only=True):
     """For some findings, limits that replace the referee's limits, because the job leaves out a part of the work.
     """
     plants: tuple[str, ...] = ()
-    """The faults that can be planted at the start. The seed determines which of them is planted, and its size."""
+    """The faults that can be planted at the start. The seed determines the fault and its size."""
     sizes: tuple[float, float] = (0.0, 0.0)  # least and greatest size of a planted fault, in the fault's unit
     steps: Mapping[str, tuple[str, ...]] = msgspec.field(default_factory=dict)
     """Steps of the work, in their order. Each key is the name of a step. Its value lists the findings that must hold

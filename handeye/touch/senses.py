@@ -23,8 +23,8 @@ the goal. The value is a placeholder.
 GAP_NOISE: Final = 0.02 * INCH  # m; twenty times the sensor noise
 SHIFT_NOISE: Final = 0.006 * INCH
 """Greatest change (m) of the gap reading between two servo periods while the fingers stand still. The value allows for
-rounding and for noise. The converter rounds to steps of .001 in. Five standard deviations of the noise are added
-(.0006 in per reading at the high level).
+the converter, which rounds to steps of .001 in, and for five standard deviations of the noise. At the high level, the
+standard deviation is .0006 in per reading.
 """
 FREE_FORCE: Final = 45 * OUNCE_FORCE
 """Greatest force that the arm may sense in free air: 12.5 N. With more force, the program calls the operator. The

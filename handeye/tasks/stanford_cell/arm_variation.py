@@ -172,9 +172,9 @@ def hand() -> Iterator[Quantity]:
             unsourced="the offset is due to the wear of the finger pads since the gap was last set, and this wear "
             f"was never measured. {DOUBLED}"),
         group("hand", {"gap_scale": Normal(0.5)}, "%",
-            "Scale error of the gap reading. The size of the error is between the linearity of wire-wound "
-            "potentiometers, .15 to .25 %, and the linearity of conductive plastic, 1 to 2 %: data sheets of "
-            "Bourns 3400 to 3590 and 6537 to 6639."),
+            "Scale error of the gap reading. Wire-wound potentiometers have a linearity of .15 to .25 %, and "
+            "conductive plastic ones of 1 to 2 % (data sheets of Bourns 3400 to 3590 and 6537 to 6639). The size "
+            "of the error is between the two."),
         group("hand", {"gap_noise": Noise(0.0003)}, "in",
             "Noise of the gap reading, before the converter.",
             unsourced="the noise is a third of a step of the converter, so the converter hardly shows it. Bound: "

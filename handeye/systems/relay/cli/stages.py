@@ -99,7 +99,7 @@ def stages(
             cases,
             head_of(STAGES, careful.world, settings={"programs": digest()}, camera=careful.camera),
             options,
-            title=f"Stages of the pump by language, in worlds whose seeds count up from {seed}",
+            title=f"Stages of the pump by language, in worlds with seeds from {seed} upwards",
             again=lambda row: shlex.join(
                 ["handeye", "trials", "stages", "--stage", row.of, "--language", row.language, *errors.words(),
                  "--n", "1", "--seed", str(row.seed)]

@@ -94,7 +94,7 @@ def palletise(
     """Move a stack of blocks onto a pallet, and back. This is the second example of TRIG's paper, with physics, in a
     random world.
 
-    A simulated person types the 26 lines of the example into a new editor, and teaches positions with errors of about
+    A simulated person types the 26 lines of the example, and teaches positions with errors of about
     .3 mm. Then the program runs forwards, and a referee judges the result. Finally the program runs backwards, and the
     referee judges again. Twenty blocks take some minutes.
 
@@ -273,7 +273,7 @@ def pallet_trials(
         cases(seed, range(n)),
         head_of(PALLET, world, settings=settings),
         options,
-        title=f"the palletiser with {counted(blocks, 'block')}, in worlds whose seeds count up from {seed}",
+        title=f"the palletiser with {counted(blocks, 'block')}, in worlds with seeds from {seed} upwards",
         again=lambda row: f"handeye trials pallet --n 1 --seed {row.seed} --blocks {blocks}{broken}",
         more={"blocks": blocks, "interrupted": interrupt},
     )
