@@ -238,7 +238,7 @@ CODES: Final[dict[str, Code]] = {
     ),
     "typed-word": _error("a console command is written in a script", "OPEN 3\nDO PARK"),
     "unexpected-character": _error("a character is not part of the language", "OPEN = 1"),
-    "unit-written": _error("a number is written with a unit", "OPEN 1.5 in"),
+    "unit-written": _error("a number has a unit, but numbers are written without units", "OPEN 1.5 in"),
     "unknown-axis": _error("an axis is not X, Y or Z", "FREE 1 W\nCHANGE X 1"),
     "unknown-counter": _error(
         "an instruction uses a counter, but no ASSIGN sets this counter", "L: PARK\nSOJG N L"
