@@ -133,7 +133,7 @@ class _Contacts:
     pairs: BodyPairs
     of_hand: BodyPairs  # the pairs with a body that the arm moves
     carried: bool
-    """True if every pair of bodies that touch is a pair that may touch in long steps."""
+    """True if all these contacts are allowed in long steps."""
     delicate: bool
     """True if at least one pair of bodies that touch is not allowed in steps of medium length."""
     held: tuple[tuple[int, int], ...]

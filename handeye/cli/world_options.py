@@ -88,7 +88,9 @@ class ErrorOptions:
         return replace(self, task=any_task(name).name)
 
     def spec(self, seed: int) -> WorldSpec:
-        """The world of a seed with these errors; raises InvalidInput if a seed, name, unit or value is invalid."""
+        """The world of this seed, with the errors that the options choose. Raises InvalidInput if a seed, name, unit
+        or value is invalid.
+        """
         checked_seed(seed)
         off = self._names()
         if "" in off:

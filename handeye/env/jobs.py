@@ -52,7 +52,7 @@ class Job(Record, frozen=True, kw_only=True):
     findings must hold.
     """
     limits: Mapping[str, float] = msgspec.field(default_factory=dict)
-    """For some findings, limits that replace the referee's limits, because the job leaves out a part of the work.
+    """Limits that replace the referee's limits for some findings, in a job that leaves out a part of the work.
     """
     plants: tuple[str, ...] = ()
     """The faults that can be planted at the start. The seed determines the fault and its size."""

@@ -28,8 +28,9 @@ from handeye.touch.guards import ActiveGuard, Reading, Trip
 from handeye.touch.senses import too_early
 
 ALLOWED: Final = 20.0
-"""Smallest value (N) of the force at which a reversal stops. When the arm lifted a top off the pins, the sensed force
-was at most 11 N. When the screws were still fastened, this force was 36 N in one step, and 108 N in the next.
+"""A reversal never stops at a force (N) below this value. When the arm lifted a top off the pins, the sensed force was
+at most 11 N. When the screws of the top were still fastened, the sensed force was 36 N in one step, and 108 N in the
+next.
 """
 SHARE: Final = 1.5  # multiple of the force that the step itself met
 

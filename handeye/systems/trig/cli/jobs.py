@@ -166,7 +166,7 @@ def _carried_out(
     folder: "RunFolder | None",
     video: "JobVideo | None",
 ) -> "tuple[JobReport, TaughtJob]":
-    """Teach a job and execute it. The result is written to the folder before the user can interrupt the command."""
+    """Teach a job and execute it. Unless the panic button stops the job, write the result to the folder."""
     from handeye.results.cautions import losses
     from handeye.results.finishing import finished, outcome
     from handeye.runs.host_seconds import Meter
