@@ -48,8 +48,8 @@ SUPPORT_SHARE: Final = 0.5
 place. This constant is the force of the press, as a fraction of the force with which the hand took the screw.
 """
 STRAIGHTER: Final = 2 * 1.1e-3
-"""Distance (m) by which the gap may change because a carried object turns until it lies flat against the fingers. Our
-choice: twice the largest measured value.
+"""Greatest change (m) of the gap when a carried object turns until it lies flat against the fingers. Our choice: twice
+the largest measured value.
 """
 SAME_JOINTS: Final = 1e-4  # rad or m within which an arm is at a loop's entry
 
