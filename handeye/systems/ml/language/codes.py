@@ -87,7 +87,7 @@ CODES: Final[dict[str, Mistake]] = {
         cure="give the line a number; `handeye ml` executes lines without a number immediately",
     ),
     "point-not-filled": Mistake(
-        meaning="the arm goes to a POINT to which no statement gives positions", example="5 POINT\n10 GOPOINT 5",
+        meaning="the arm goes to a POINT that no statement fills with positions", example="5 POINT\n10 GOPOINT 5",
         cure="fill the point with DEFPOINT or JOY, or give its positions: `5 POINT * 0 0 2000 ...`", severity="warning",
     ),
     "too-fast": Mistake(
