@@ -162,7 +162,7 @@ WORDS: Final[dict[str, Word]] = {
     "NOT": Word("operator", "NOT condition", "True if the condition does not hold."),
     "AND": Word(
         "operator", "condition AND condition",
-        "True if both conditions hold. In WAIT: all these flags must be set.",
+        "True if both conditions hold. In WAIT, between flags: wait until all of them are set.",
     ),
     "OR": Word("operator", "condition OR condition", "True if at least one of the conditions holds."),
 }  # fmt: skip
