@@ -230,8 +230,8 @@ REMEDIES: Final[dict[int, Remedy]] = {
     ),
     errors.GAP_WRONG: Remedy(
         "If nothing is in the way of the fingers, the potentiometer that measures the gap is broken. In that case, "
-        "do not test for the error. If the fingers may meet an object as they open, open them less. A held part "
-        "that slips or is pushed also changes the gap.",
+        "leave out the test, so that the error calls the operator. If the fingers may meet an object as they open, "
+        "open them less. A held part that slips or is pushed also changes the gap.",
         "OPEN 1.8\nSKIPN 51 ;the fingers reached their gap\nOPEN 1.5\nMOVE P",
     ),
     errors.FORCE_WRONG: Remedy(

@@ -131,7 +131,7 @@ def _avoided(
     text = (
         "the program can end here"
         if first.leaves is None
-        else "after this line, the path below no longer shows the claim"
+        else "after this line, the path below cannot reach a step that shows the claim"
     )
     since = max((index for index in (first.leaves, first.undone) if index is not None), default=0)
     marks = []

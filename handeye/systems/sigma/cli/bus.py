@@ -77,9 +77,9 @@ def demo(
 ) -> int:
     """Send a command and ask a question; show the signals on all lines and the bytes that each receiver takes.
 
-    From its second byte on, the command to X1 reads like a command to Y1. If Y1 becomes free in the middle of that
-    command (`--late-riser`), Y1 ignores the bytes that it still receives; with `--fault long-strobe` as well, Y1 takes
-    these bytes for its own command.
+    From its second byte on, the command to X1 reads like a command to Y1. If Y1 becomes free in the middle of the
+    command to X1 (`--late-riser`), Y1 ignores the bytes that it still receives; with `--fault long-strobe` as well, Y1
+    takes these bytes for its own command.
 
     Exit code 0: every byte arrived as it was sent; 1: a byte was misread; 2: bad input.
     """
