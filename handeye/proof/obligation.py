@@ -11,8 +11,8 @@ class Phase(Record, frozen=True, kw_only=True):
 
     by: tuple[Evidence, ...] = ()
     undone: tuple[Evidence, ...] = ()
-    """Kinds of steps after which the phase must be shown again, because these steps may change what the phase has
-    shown. The phase must be shown again even if such a step raises an error.
+    """Kinds of steps that may undo what has been shown. After such a step, the phase must be shown again, even if the
+    step raises an error.
     """
 
 
