@@ -159,9 +159,9 @@ def _friction() -> Iterator[Quantity]:
         "arm.friction", dict(others), _TORQUES[1:],
         f"{what} Inferred from the paper, in which a released arm stays in place. The friction of joints 2 and 3 "
         "must therefore withstand the sum of two loads. One is half a step of the joint's torque converter. The "
-        "other is the weight that the arm does not compensate after it has weighed its links: .25 N m and .7 N at "
-        "the parked posture, in the worst of 200 worlds. The friction of a wrist joint need withstand only half a "
-        "step of the joint's torque converter.",
+        "other is the part of the weight for which the arm does not compensate, even after it has weighed its "
+        "links: .25 N m at joint 2 and .7 N at joint 3 in the parked posture, in the worst of 200 worlds. The "
+        "friction of a wrist joint need withstand only half a step of the joint's torque converter.",
         nominal=means[1:], least=0.0,
     )  # fmt: skip
 
