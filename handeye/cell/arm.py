@@ -211,7 +211,7 @@ class SimulatedArm(Mechanism[ArmState], ArmPort):
             raise ValueError("the saved state is the state of an arm with a different number of joints")
         finite([*state.q, *state.qd, *(state.command or ()), state.unanswered], "the arm")
         if state.unanswered < 0:
-            raise ValueError("the saved watchdog waits for a time in the past")
+            raise ValueError("the saved time since the last command to the arm is negative")
 
     def restore(self, state: ArmState) -> None:
         self._read(np.array(state.q), np.array(state.qd), braked=state.braked)

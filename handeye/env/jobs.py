@@ -58,8 +58,8 @@ class Job(Record, frozen=True, kw_only=True):
     """The faults that can be planted at the start. The seed determines the fault and its size."""
     sizes: tuple[float, float] = (0.0, 0.0)  # least and greatest size of a planted fault, in the fault's unit
     steps: Mapping[str, tuple[str, ...]] = msgspec.field(default_factory=dict)
-    """Steps of the work, in their order. Each key is the name of a step. Its value lists the findings that must hold
-    if the step is done, each given by the beginning of its name.
+    """Steps of the work, in their order. For the name of each step, the findings that must hold if the step is done. A
+    finding is given by the beginning of its name.
     """
 
     def requires(self, finding: str) -> bool:
