@@ -50,8 +50,8 @@ the other half moves the joint.
 """
 _FRESH = 0.25  # weight of the last servo period in the mean over the last few; chosen
 _AT_ONCE = 15
-"""Greatest number of servo periods that the servo loop skips at a time while the brakes are set. The panic button then
-acts up to .25 s late.
+"""Greatest number of servo periods that the servo loop skips at a time while the brakes are set. While the brakes are
+set, the panic button thus acts up to .25 s late.
 """
 LIGHT = 5.0
 """Greatest load in the hand (N) at which the servo loop judges the drag of the joints. If the hand lost a heavier

@@ -50,9 +50,9 @@ thread of class 2: half the difference between the pitch diameters .2127 in and 
 SCREW_LEAN: Final = 1.0  # deg: at this tilt, one side of a head 11 mm wide is lifted by about SCREW_GAP
 SCARS: Final = 0
 """Greatest number of scarred threads; a larger number only causes a warning. Other limits judge how a scar affects the
-pump. A screw may have been backed out and then driven straight. It holds like any other screw if it clamps
-(SCREW_CLAMP), stands straight (SCREW_LEAN) and is deep enough in its thread (SCREW_THREAD). But a person who takes the
-pump apart must know of the scar, because a thread that was cut twice strips sooner.
+pump: a screw in a scarred thread holds like any other screw if it clamps (SCREW_CLAMP), stands straight (SCREW_LEAN)
+and is deep enough in its thread (SCREW_THREAD). But a person who takes the pump apart must know of the scar, because a
+thread that was cut twice strips sooner.
 """
 SOFT: Final = 0.03
 """Tolerated overlap beyond the clearance of a shank or pin in its hole (mm). Contacts are soft: a shank that was
