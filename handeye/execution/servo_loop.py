@@ -74,8 +74,8 @@ class Outcome:
     error: int | None = None  # an error of the motion itself (servo lag, watchdog)
     cause: Cause | None = None  # cause of that error, if there is more to say about it
     off: float = 0.0
-    """If the hand missed the last set-point: its distance (m) from the set-points in the middle of the motion.
-    Otherwise 0.
+    """How far (m) the hand was from its set-points, on average over the middle third of the motion. 0 if the hand
+    reached the last set-point.
     """
 
 

@@ -79,9 +79,9 @@ class EarlyContact:
 
 
 RAMP: Final = 8
-"""Number of servo periods in which the arm speeds up at the start of the reverse path, and in which it slows down at
-the end. Our choice. A recorded path may lack such a ramp: if a force ended the recorded motion, this motion did not
-slow down first.
+"""Length of a ramp, in servo periods. The arm speeds up in one ramp at the start of the reverse path, and slows down
+in another at the end. Our choice. A recorded path may lack such a ramp: if a force ended the recorded motion, this
+motion did not slow down first.
 """
 JOIN: Final = 5e-4
 """Speed (rad or m per servo period) at which the joints move from the present position to the end of the recorded

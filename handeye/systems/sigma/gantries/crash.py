@@ -106,7 +106,7 @@ def crash(speed: float | None, *, reflex: bool, endless_loop: bool = False, lowe
             vm.settle()
     _pass(bus)
     if endless_loop:
-        message = "nothing, because the central computer hangs; it assumes that its last command was executed"
+        message = "nothing, because the central computer hangs; its count takes the last command as executed"
     else:
         message = vm.memory.fault.told if vm.memory.fault else f"ARRIVED AT {GOAL:g}"
     axes = tuple(_after(axis, vm, bus, gantries, greatest, stops) for axis in ARMS)
