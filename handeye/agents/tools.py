@@ -47,8 +47,8 @@ TOOLS: Final = (
     ),
     Tool(
         name="world", takes=requests.WorldOf, act=Toolbox.world,
-        about="List the quantities that differ from world to world: spread, unit and source. The value in a world "
-        "stays hidden; a program must find it with the arm's sensors.",
+        about="List the quantities that differ from world to world, each with its spread, unit and source. The "
+        "value of a quantity in a world stays hidden; a program must find it with the arm's sensors.",
     ),
     Tool(
         name="run", takes=requests.Advance, act=Toolbox.run, changes=True, queues=True,

@@ -85,7 +85,7 @@ motion did not slow down first.
 """
 JOIN: Final = 5e-4
 """Speed (rad or m per servo period) at which the joints move from the present position to the end of the recorded
-path, before they retrace this path. After brakes or a guard have stopped it, the arm can be beside the path.
+path, before they retrace this path. The arm can be beside the path if the brakes or a guard stopped the arm.
 """
 
 
