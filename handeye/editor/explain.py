@@ -138,7 +138,7 @@ class Remedy:
 REMEDIES: Final[dict[int, Remedy]] = {
     errors.JOINT_LIMIT: Remedy(
         "The planner reports this error for a planned position. During a run, the error occurs when a part lies "
-        "farther away than planned. In that case, take another path.",
+        "farther away than planned. Test for the error in the program, so that the arm can take another path.",
         "MOVE T\nSKIPE 1 ;T is too far away\nJUMP NEAR\nMOVE P\nNEAR: OPEN 1",
     ),
     errors.NOTHING_HELD: Remedy(

@@ -64,9 +64,9 @@ def stages(
     pair of languages is compared in the worlds in which both were tried. A table says which stages only the arm
     language can express, and why.
 
-    The careful program takes about 20 CPU seconds in each world; each stage takes three to ten CPU seconds more.
-    Ctrl-C ends the batch and prints the trials that have finished. If you gave --out, repeat the command to continue
-    the batch; you can then also add worlds, stages and languages.
+    In each world, the careful program takes about 20 CPU seconds, and each stage takes another three to ten CPU
+    seconds. Ctrl-C ends the batch and prints the trials that have finished. If you gave --out, repeat the command to
+    continue the batch; you can then also add worlds, stages and languages.
 
     Exit code 0: no silent failure; 1: no trial finished; 3: a silent failure; 2: bad input; 130: interrupted.
     """
