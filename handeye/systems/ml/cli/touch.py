@@ -24,9 +24,8 @@ def touch(
     limit: Annotated[
         WholeNumber,
         Parameter(
-            help=(
-                "The hand stops when the strain gauge in the right finger reads more than this limit, 10 to 1500 grams."
-            )
+            help="The hand stops when the strain gauge in the right finger reads more than this limit, 10 to 1500 "
+            "grams."
         ),
     ] = 300,
     phase: Annotated[
