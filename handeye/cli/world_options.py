@@ -82,8 +82,8 @@ class ErrorOptions:
         return any_task(DEFAULT) if self.task is None else named(self.task)
 
     def of(self, name: str) -> Self:
-        """A copy of these options for the task called `name`, which a plan or a run records. The method imports no
-        task module.
+        """A copy of these options for the task called `name`. The name comes from a plan or a run. The method imports
+        no task module.
         """
         return replace(self, task=any_task(name).name)
 

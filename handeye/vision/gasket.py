@@ -52,8 +52,8 @@ around each hole; a point that is brighter than BRIGHT times this intensity belo
 ROUNDS: Final = 2  # searches for the base's largest hole, each starting from the previous one
 RAYS: Final = 32
 WINDOW: Final = 9
-"""Number of neighbouring rays over which the median is taken. They span a quarter of the rim, and this quarter is
-wider than the part that an aligning pin hides.
+"""The median is taken over this number of neighbouring rays. These rays span a quarter of the rim. An aligning pin
+hides less than a quarter.
 """
 CLEAR: Final = 0.06 * INCH
 """A border point of the base counts only if it lies within this distance (m) of the apparent circle of the hole.

@@ -192,8 +192,7 @@ def test_a_gap_that_is_not_that_of_what_is_held_is_told(factor: float, wrong: bo
     assert run.go().errors == [errors.GAP_WRONG] * wrong
     if wrong:
         assert run.told.endswith(
-            f"in, but between the fingers is PIN, which is 1.00 in thick; the reading is {factor:.2f} times the "
-            "thickness)"
+            f"in, but the fingers hold PIN, which is 1.00 in thick; the reading is {factor:.2f} times the thickness)"
         )
 
 

@@ -132,8 +132,8 @@ WORDS: list[tuple[c.Cause, str]] = [
     ),
     (
         s.GapUnlike(gap=1.15 * INCH, thickness=1.0 * INCH, held="PIN"),
-        "the gap reads 1.15 in, but between the fingers is PIN, which is 1.00 in thick; the reading is 1.15 times "
-        "the thickness",
+        "the gap reads 1.15 in, but the fingers hold PIN, which is 1.00 in thick; the reading is 1.15 times the "
+        "thickness",
     ),
     (
         s.CurrentUnlike(torque=3.5 * OUNCE_INCH, known=7 * OUNCE_INCH),

@@ -41,7 +41,9 @@ def doubt_sentence(cause: s.SenseCause) -> str:
                 if cause.thickness
                 else ""
             )
-            return f"the gap reads {gap} in, but between the fingers is {cause.held}, which is {thick} in thick{times}"
+            return (
+                f"the gap reads {gap} in, but the fingers hold {cause.held}, which is {thick} in thick{times}"
+            )
         case s.DrivesUnlike():
             named = zip(cause.joints, cause.factors, strict=False)
             gives = " and ".join(

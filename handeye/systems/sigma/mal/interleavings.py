@@ -420,7 +420,7 @@ def told_orders(name: str, program: MalProgram, result: Interleavings) -> Iterat
     orders = (
         "all orders were tried"
         if result.complete
-        else "not all orders were tried; with a larger `--most`, more are tried"
+        else "not all orders were tried; give a larger `--most` to try more"
     )
     found = counted(len(result.findings), "finding") if result.findings else "no deadlock and no race"
     ends = f"; the program ends in {counted(result.ends, 'different way')}" if result.ends > 1 else ""
