@@ -178,7 +178,7 @@ def _chosen(known: "Sequence[Disturbance]", only: "list[str] | None") -> "list[D
         raise Refused("this task has no disturbances")
     for name in only or ():
         if name not in names:
-            near = suggestion(name, names) or "--list lists them"
+            near = suggestion(name, names) or "--list lists all disturbances"
             raise NoSuchName(f"there is no disturbance {quoted(name)}; {near}")
     return [each for each in known if not only or each.name in only]
 

@@ -216,8 +216,8 @@ REMEDIES: Final[dict[int, Remedy]] = {
         'WAIT "CHECK THE GASKET"\nPARK',
     ),
     errors.PART_ASTRAY: Remedy(
-        "The part was moved or removed since the earlier picture, or the arm is in another place and casts its "
-        "shadow on the part: look again, or ask the operator.",
+        "Either the part has been moved or removed since the earlier picture, or the arm is now in another place "
+        "and casts its shadow on the part. Look again, or ask the operator.",
         "LOOK BEFORE\nMOVE P\nLOOK AFTER HOLD\nMATCH BASE BEFORE AFTER\nSKIPN 33 ;it stands as it stood\n"
         'WAIT "SOMEBODY HAS MOVED THE BASE"\nPARK',
     ),

@@ -141,8 +141,8 @@ WORDS: list[tuple[c.Cause, str]] = [
     ),
     (
         s.DrivesUnlike(joints=(ARM.joints[1],), factors=(1.3,)),
-        "the drives feel other weights of the links than before: either a drive gives more or less torque than "
-        "commanded (the drive of the wrist gives 1.30 times as much), or the arm no longer stands upright",
+        "to the drives, the weights of the links seem to have changed: either a drive gives more or less torque "
+        "than commanded (the drive of the wrist gives 1.30 times as much), or the arm no longer stands upright",
     ),
     (
         s.MotorSlow(share=0.4),

@@ -50,8 +50,8 @@ def doubt_sentence(cause: s.SenseCause) -> str:
                 f"the drive of the {joint.name} gives {factor:.2f} times as much" for joint, factor in named
             )
             return (
-                "the drives feel other weights of the links than before: either a drive gives more or less torque "
-                f"than commanded ({gives}), or the arm no longer stands upright"
+                "to the drives, the weights of the links seem to have changed: either a drive gives more or less "
+                f"torque than commanded ({gives}), or the arm no longer stands upright"
             )
         case s.CurrentUnlike():
             told, known = (torque / OUNCE_INCH for torque in (cause.torque, cause.known))

@@ -120,7 +120,7 @@ TABLE: Final = (
     TrigCommand(usage="FLUSH", group=CHANGES, act=step_commands.flush, help="erase the program"),
     TrigCommand(
         usage="HERE POS", group=POSITIONS, takes=("position",), needs=1, act=arm_commands.here,
-        help="give the present position of the arm a name",
+        help="name the present position of the arm",
     ),
     TrigCommand(
         usage="SA POS", group=POSITIONS, takes=("position",), needs=1, act=arm_commands.here, help="the same as HERE"

@@ -94,7 +94,7 @@ at up to .1 mm/s; a joint held by its brake creeps at 9e-6 rad/s, which is .01 m
 """
 
 REST: Final = 0.25
-"""Greatest distance (mm) that any part may move until it has settled. In pumps that the arm has made, parts
+"""Greatest distance (mm) that any part may move while the parts settle. In pumps that the arm has made, parts
 settle by up to .03 mm; a part without support falls.
 """
 
