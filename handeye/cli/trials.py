@@ -94,7 +94,7 @@ def base_vision_trials(
     n: Annotated[
         WholeNumber,
         Parameter(
-            help="Number of poses of the base to try: the first is the pose that the base has in the world, the "
+            help="Number of poses of the base to try. The first is the pose that the base has in the world; the "
             "others are random."
         ),
     ] = 100,

@@ -115,9 +115,9 @@ class ErrorOptions:
         replace(self, without=None).spec(seed)
 
     def apart(self, calls: Set[str]) -> "tuple[ErrorOptions, tuple[str, ...]]":
-        """Split the names in `--without`. The first value is a copy of these options whose `--without` keeps only the
-        errors of the world. The second value names the senses and macros that the program must do without, each name
-        once.
+        """Split the names in `--without`. The first value is a copy of these options. In this copy, `--without` names
+        only errors of the world. The second value names the senses and macros that the program must do without, each
+        name once.
         """
         names = [name.upper() if name.upper() in calls else name for name in self._names()]
         spared = [*SENSES, *sorted(calls)]
@@ -233,8 +233,8 @@ class WorldOptions:
         return given.world
 
     def apart(self, calls: Set[str]) -> "tuple[WorldOptions, tuple[str, ...]]":
-        """Split the names in `--without`. The first value is a copy of these options whose `--without` keeps only the
-        errors of the world. The second value contains the senses and macros that the program must do without.
+        """Split the names in `--without`. The first value is a copy of these options. In this copy, `--without` names
+        only errors of the world. The second value contains the senses and macros that the program must do without.
         """
         errors, spared = self.errors.apart(calls)
         return replace(self, errors=errors), spared

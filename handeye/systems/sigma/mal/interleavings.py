@@ -295,7 +295,7 @@ class _Search:
             owner = state.memory.owners.get(axis)
             if owner is not None and owner.task != name:
                 there = self.program.line_of(owner.address).number
-                told = f"both the task {owner.task}, line {there}, and the task {name}, line {here}, drive {axis}"
+                told = f"the tasks {owner.task} (line {there}) and {name} (line {here}) both drive {axis}"
                 self._find("axis", told, [there, here], key)
 
     def _see_hands(self, key: bytes, state: _State) -> None:
