@@ -87,8 +87,9 @@ def assemble(
         list[Then] | None,
         Parameter(
             consume_multiple=False,
-            help="What to do after the referee has accepted the pump: `dismantle` makes the arm take the pump apart, "
-            "and then `assemble` assembles it again. Repeat the option to do both in turn.",
+            help="What to do after the referee has accepted the pump. The first --then must be `dismantle`: the arm "
+            "takes the pump apart. A second one, `assemble`, makes the arm assemble the pump again. You can repeat "
+            "both in turn.",
         ),
     ] = None,
 ) -> int:

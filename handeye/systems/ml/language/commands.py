@@ -145,7 +145,8 @@ _ROWS: Final[dict[Category, tuple[tuple[str, str, str, str], ...]]] = {
     ),
     "data": (
         ("POINT", "", (
-            "Holds the positions of 12 motors, which DEFPOINT or JOY writes. When POINT is executed, it does nothing."
+            "Holds the positions of 12 motors. DEFPOINT or JOY writes these positions. When POINT is executed, it "
+            "does nothing."
         ), "5 POINT"),
     ),
     "arithmetic": (
