@@ -204,7 +204,7 @@ def test_an_unknown_level_is_refused(command: Command) -> None:
             "unsourced=5",
             "`unsourced` cannot be scaled by 5.0; at the level nominal, a factor must be between 0 and 4",
         ),
-        ("base=2", "a scale cannot apply: the world has no error in `base`"),
+        ("base=2", "there is nothing to scale: the world has no error in `base`"),
         ("camrea=2", "the world has no quantity `camrea`; did you mean `camera`?"),
     ],
 )

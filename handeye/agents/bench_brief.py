@@ -56,8 +56,8 @@ def _counts(task: "BenchTask", told: Phrases) -> str:
     if task.file.orders:
         return (
             "If a program stops in at least one order of its tasks, for example in a deadlock, it counts as "
-            "stopped. If in at least one order the program ends with wrong work without noticing, this is a silent "
-            "failure, even if the program stops in another order."
+            "stopped. A program is a silent failure if, in at least one order, it ends as if all were well "
+            "although the work is wrong. This also applies if the program stops in another order."
         )
     return (
         f"A program that is not sure must stop: {task.file.stopping or told.stops}. A program that ends as if all were "

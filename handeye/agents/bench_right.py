@@ -85,7 +85,7 @@ class Measured(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=
             off = abs(float(told[-1]) - at * self.scale - self.offset)
         except (IndexError, ValueError):
             off = float("inf")
-        what = f"error of the printed {self.axis} of {self.geom.replace('_', ' ')}"
+        what = f"error of {self.axis} of {self.geom.replace('_', ' ')}, as the program prints it"
         return {f"{self.geom}.{self.axis}": at_most(off, self.within, "units", what)}
 
 

@@ -18,7 +18,7 @@ from handeye.results.result import Result
 from handeye.results.world_page import QuantityReport, how
 
 MOST_STEPS: Final = 40  # executed steps that a reply lists
-_ANSWERS: Final = "; `run` continues it with an `answer`: retry, proceed or skip"
+_ANSWERS: Final = "; `run` continues this run if you give an `answer`: retry, proceed or skip"
 _SETTING: Final = ("timing", "versions", "camera", "world")  # of a result, which tell an agent nothing
 
 

@@ -33,8 +33,10 @@ TaughtPositions = Annotated[
 ]
 TaskName = Annotated[
     str,
-    Meta(max_length=100, description="Name of the task, such as insertion. Default: the task of the program, else "
-         "water_pump."),
+    Meta(max_length=100, description=(
+        "Name of the task, such as insertion. Default: water_pump or, if `script` is the name of an included "
+        "program, the task of this program."
+    )),
 ]  # fmt: skip
 RunName = Annotated[
     str,
@@ -149,7 +151,9 @@ class Advance(Request, frozen=True, kw_only=True):
     ) = None
     answer: Annotated[
         Literal["retry", "proceed", "skip"] | None,
-        Meta(description="Answer this to the program's call to the operator, and then continue the run."),
+        Meta(
+            description="Give this answer when the program has called the operator, and then continue the run."
+        ),
     ] = None
 
 
@@ -193,7 +197,7 @@ class Fork(Request, frozen=True, kw_only=True):
         Meta(
             max_length=200,
             description=(
-                "The new run begins with this stage. Default: it begins at the present state of the run."
+                "The new run begins with this stage. Default: it begins at the present state of the existing run."
             ),
         ),
     ] = ""

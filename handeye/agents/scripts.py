@@ -91,8 +91,8 @@ class Scripts:
             return _included(program[0])
         if not self._has(script):
             raise NoSuchName(
-                f"there is no script {quoted(script)} in the folder; a script given as text must contain a line break, "
-                f"and the included programs are {', '.join(program_names())}"
+                f"there is no script {quoted(script)}, neither in the folder nor among the included programs "
+                f"({', '.join(program_names())}); a script given as text must contain a line break"
             )
         return self.folder.source(script)
 

@@ -47,14 +47,14 @@ TOOLS: Final = (
     ),
     Tool(
         name="world", takes=requests.WorldOf, act=Toolbox.world,
-        about="List the quantities that differ from world to world: spread, unit and source. The value in a world "
-        "stays hidden; a program must find it with the arm's sensors.",
+        about="List the quantities that differ from world to world, each with its spread, unit and source. The "
+        "value of a quantity in a world stays hidden; a program must find it with the arm's sensors.",
     ),
     Tool(
         name="run", takes=requests.Advance, act=Toolbox.run, changes=True, queues=True,
-        about="Begin a run of a script in a simulated world, or continue a run: to a place, for some steps, or to the "
-        "end. Returns what each step did, and where the run pauses. A whole pump takes minutes. If the call is "
-        "cancelled, the run pauses.",
+        about="Begin a run of a script in a simulated world, or continue a run: to a place, for some steps, or to "
+        "the end. Returns what each step did, and where the run pauses. A run of the whole assembly takes minutes. "
+        "If the call is cancelled, the run pauses.",
     ),
     Tool(
         name="state", takes=requests.StateOf, act=Toolbox.state, queues=True,

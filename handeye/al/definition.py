@@ -212,10 +212,7 @@ MOMENT: Final = Operand(
 )
 ERROR: Final = count("error", 1, 63, "an error number must be from 1 to 63")
 LENS: Final = Operand(name="mm", takes=(Number,), units=(MM,), choices=LENSES_MM)
-_STEP_WHY = (
-    f"a step must be between {MIN_POSITIVE:g} and {MAX_STEP_IN:g} in: a search takes several steps to each"
-    " side"
-)
+_STEP_WHY = f"a step must be between {MIN_POSITIVE:g} and {MAX_STEP_IN:g} in"
 SEARCH_STEP: Final = replace(number("step", IN, MIN_POSITIVE), high=MAX_STEP_IN, why=_STEP_WHY)
 STEPS: Final = count("number", 1, 20, "a search must extend 1 to 20 steps to each side", word="STEPS")
 TIMES: Final = count("number", 1, 100, "the number of times must be from 1 to 100", word="TIMES")

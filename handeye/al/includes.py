@@ -159,7 +159,7 @@ class Requirements:
             divided = None if slashed == file.text else f"separate folders with `/`: {quoted(slashed)}"
             return problem("unreadable-file", message, file.span, notes=(found.problem,), help=divided)
         notes = ("this text has not been saved as a file",)
-        help = "paths are relative to the file that requires them: save this text first"
+        help = "save this text first: a path is relative to the folder of the file that requires it"
         return problem("unreadable-file", message, file.span, notes=notes, help=help)
 
     def _circle(self, key: str, file: Text) -> Diagnostic:

@@ -101,9 +101,9 @@ _MEANINGS: Final = {
     "SKIPE": "if the last action raised this error, clear the error and skip the next instruction",
     "SKIPN": "if the last action did not raise this error, skip the next instruction; if it did, clear the error",
     "SEARCH": (
-        "start a search of places on a square spiral, one step (inches) apart, with three steps to each side. With "
-        "ALONG, the places are on a line in the given direction (degrees from the x axis of the table), with four "
-        "steps to each side. STEPS sets a different number of steps"
+        "start a search on a square spiral. Its places are one step (inches) apart, with three steps to each side. "
+        "With ALONG, the places are on a line in the given direction (degrees from the x axis of the table), with "
+        "four steps to each side. STEPS sets a different number of steps"
     ),
     "AOJ": "select the next place of the search and jump back to the label; error 6 if no place is left",
     "ASSIGN": "set a counter",
@@ -120,7 +120,7 @@ _MEANINGS: Final = {
     "offset along the finger line (the line through both finger tips)",
     "HERE": "define a position as the present place of the hand; if the position was taught relative to a part, it "
     "stays relative to that part",
-    "WHERE": "show the place of the hand in inches and degrees, in the form of `TRANS`",
+    "WHERE": "show the place of the hand as the six numbers of a `TRANS`, in inches and degrees",
     "TRAVEL": "check how far the hand moved in the last CHANGE, PLACE or CENTER; error 8 if this distance (inches) is "
     "outside the range",
     "HEIGHT": "check how much higher the hand is after the last motion than it was at the SAVE of this name; error 9 "

@@ -303,8 +303,8 @@ class _Lowerer:
             there = Label(span=inner.span, text="the label is inside a macro")
             message = f"label {quoted(label.text)} belongs to a macro"
             help = (
-                "a jump from outside a macro cannot lead to a label in the macro; a macro ends with the first "
-                "blank line"
+                "a jump from outside a macro cannot lead to a label in the macro; if the label should not be in "
+                "the macro, end the macro with a blank line before the label"
             )
             self.problem("unknown-label", message, label, there, *uses(label), help=help)
             return

@@ -29,8 +29,8 @@ class Command:
     """
 
     torque: ArrayLike | None = None
-    """Torque of each joint, shape (n,), in N m, or in N if the joint is prismatic. The drives limit the torque to
-    their greatest torque (`effort` of the joint). None sets the brakes.
+    """Torque of each joint, shape (n,), in N m, or in N if the joint is prismatic. The drive of a joint does not give
+    more than its greatest torque (`effort` of the joint). None sets the brakes.
     """
     gap: float | None = None  # goal of the opening between the finger tips, m
     grip: float | None = None  # greatest force of each finger, N
@@ -62,7 +62,9 @@ def take_control(runner: Runner, controller: Controller, seconds: float) -> str:
         done = runner.control(name, _checked(name, controller, runner), most)
     except Halted:
         runner.rollback()
-        return f"the panic button stopped the controller {name}, and the servo periods of the controller were undone"
+        return (
+            f"the panic button stopped the controller {name}; the run is back in its state before the control"
+        )
     except BaseException:  # in code of the caller, or in the simulation
         runner.rollback()
         raise

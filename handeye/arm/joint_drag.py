@@ -42,9 +42,10 @@ a step. In twelve worlds, sound joints reached a ratio of 1.4.
 """
 DAMPING_DOUBT: Final = 0.6  # of the viscous friction: its stated spread at twice its size
 WEIGHT_DOUBT: Final = 0.2
-"""Possible relative error of weight and inertia torques if a joint moved in one direction only. The value allows for
-masses, mass centres and drives whose errors are three times the spreads at the high level. At this level, every spread
-is twice the one that the sources state.
+"""Possible relative error of the calculated torques of weight and inertia. It counts only for a joint that slid in one
+direction, because an unmodelled weight then feels like friction. The value allows for masses, mass centres and drives
+whose errors are three times the spreads at the high level. At this level, every spread is twice the one that the
+sources state.
 """
 AT_HAND: Final = 0.15
 """Longest lever arm (m), about the tool centre point, that a force on the hand or on the held object can have. Our

@@ -33,9 +33,9 @@ DAMPING: Final = 0.6  # of viscous friction
 COULOMB: Final = 0.02  # of measured friction, in addition to a quarter of a converter step
 BEARS: Final = 4.0  # least weight that a joint must carry to be checked, in multiples of its friction; chosen
 LIMIT: Final = 5.0
-"""Limit of the torque of a joint that the estimate does not explain, in multiples of the uncertainty of this torque.
-The uncertainty is one standard deviation, and is computed from the errors above. Each of these errors is twice the
-stated spread.
+"""Limit of the unexplained torque of a joint, in multiples of its uncertainty. The unexplained torque is the
+difference between the torque of the joint and the estimate. The uncertainty is one standard deviation, and is computed
+from the errors above, each of which is twice its stated spread.
 
 Assembling a pump takes about 350 motions. If two joints were checked in each motion, a limit of 4 would stop one
 assembly in 20 although all drives work; a limit of 5 would stop one assembly in 2,500. In fact, the arm checks only

@@ -70,8 +70,8 @@ class JointSensors:
 
 
 _BRAKE_STIFFNESS: Final = ((0.004, 1.0), (0.999, 0.9999, 0.001, 0.5, 2.0))
-"""Constraint stiffness of the brakes. With this stiffness, the arm creeps by less than .01 degrees in 10 s. It stops
-creeping when the simulator lets it sleep.
+"""Constraint stiffness of the brakes. With this stiffness, the arm creeps by less than .01 degrees in 10 s. When the
+simulator puts the arm to sleep, the creeping ends.
 """
 
 
@@ -211,7 +211,7 @@ class SimulatedArm(Mechanism[ArmState], ArmPort):
             raise ValueError("the saved state is the state of an arm with a different number of joints")
         finite([*state.q, *state.qd, *(state.command or ()), state.unanswered], "the arm")
         if state.unanswered < 0:
-            raise ValueError("the saved watchdog waits for a time in the past")
+            raise ValueError("the saved time since the last command to the arm is negative")
 
     def restore(self, state: ArmState) -> None:
         self._read(np.array(state.q), np.array(state.qd), braked=state.braked)

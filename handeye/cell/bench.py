@@ -20,11 +20,11 @@ MICROSECONDS: Final = 1_000_000
 _LATEST: Final = 10**15
 _MOST_AT_ONCE: Final = 100_000  # events between two physics steps
 _FINEST: Final = 10**6
-"""A physics step is taken as an exact fraction of a second (1/960, 1/1200, .001) if there are at most this many
-steps in a second.
+"""If a second has at most this many physics steps, the bench computes with the exact length of a step, as a fraction
+of a second (1/960, 1/1200, .001).
 """
 FASTEST: Final = 1000.0
-"""Greatest plausible speed, in m/s and rad/s. Only a failure of the contact solver makes a body on a bench faster."""
+"""Greatest plausible speed, in m/s and rad/s. A body on a bench exceeds this speed only if the contact solver fails."""
 _STRETCH: Final = Fraction(1, 60)  # longest time (s) for which the action of mechanisms may stay constant
 
 
@@ -209,7 +209,7 @@ class Bench(Clock, Mechanism[BenchTime]):
         if not 0 <= state.steps < _LATEST or any(due.microseconds >= _LATEST for due in state.due):
             raise BadFile("the saved clock shows an impossible time")
         if not {due.name for due in state.due} <= {*self.handlers}:
-            raise BadFile("the saved state waits for events that this bench does not know")
+            raise BadFile("the saved state contains events that this bench does not have")
 
     def restore(self, state: BenchTime) -> None:
         self._steps, self._due = state.steps, list(state.due)

@@ -48,7 +48,7 @@ class Carriers:
         self.head = np.array([model.geom(f"head{k}").id for k in holes])  # their heads, geoms
         self.site = [model.site(f"thread{k}").id for k in holes]  # their frames, sites
         self.mouths: Array = model.body_pos[self._body].copy()
-        """Positions of the mouths of the tapped holes in the frame of the base, in m, shape (n, 3)."""
+        """Positions (m) of the mouths of the tapped holes, relative to the frame of the base, shape (n, 3)."""
         self._lead = float(model.eq_data[_helix(model, self._slide[0], self._turn[0]), 1])  # m per radian
         self._solid = [np.array([self.head[k], model.geom(f"shank{k}").id]) for k in holes]
         self._bits = [(model.geom_contype[g].copy(), model.geom_conaffinity[g].copy()) for g in self._solid]

@@ -113,7 +113,9 @@ _LIGHT: Final = ((np.arange(256) / 255) ** GAMMA).astype(np.float32)
 _PLASTIC: Final = np.array([0.7548776662466927, 0.5698402909980532])
 """Steps of a sequence that fills a square evenly. They are computed from the root of x^3 = x + 1."""
 Progress = Callable[[int, int], None]
-"""Function called before each exposure with the number of the exposure, from 1, and the total number."""
+"""Function called before each exposure. It receives the number of this exposure (the first is 1) and the number of all
+exposures.
+"""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

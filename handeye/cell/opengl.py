@@ -40,8 +40,8 @@ _QUALITY: Final = {"shadowsize": 4096, "offsamples": 0, "numstacks": 2}
 """Quality of pictures: points of the shadow map, samples per fine point, and rings along a cylinder.
 
 More samples and rings would have no effect, because four fine points are averaged and the vidicon blurs the picture.
-On the table, a point of the shadow map is .7 mm wide, half as wide as a point of a picture. With a map of 1024 points,
-a point would be 2.8 mm wide. If the pump were then pushed by .1 mm, the pictures would change at the edges of its
+On the table, a point of the shadow map is .7 mm wide, half as wide as a point of a picture. With a coarse map of 1024
+points, a point would be 2.8 mm wide, and pictures of a pump pushed by .1 mm would differ more at the edges of its
 shadows. `vision/matching.py` compares the same square of points in two pictures. In pictures of a pushed pump, such a
 square differed by up to 2.6 levels with the coarse map. With the map of 4096 points, or with ray casting, the square
 differed by up to 1.0 level (seed 15, 30 pictures each). With the finer map, a picture takes .05 s longer.
@@ -180,7 +180,7 @@ def context() -> tuple[str, Any]:
                 continue
             return name, gl
     if present and set_here:
-        reasons.append(f"run handeye again without {' and '.join(set_here)} in the environment")
+        reasons.append(f"unset {' and '.join(set_here)}, and run handeye again")
     if not reasons:
         reasons.append("on Debian, install libegl1, libgl1-mesa-dri and libopengl0")
     raise Refused(

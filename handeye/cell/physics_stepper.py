@@ -60,8 +60,8 @@ FINER: Final = 8
 """
 CRUSHING: Final = 1000.0
 """Greatest force (N) on a finger pad that is accepted in short steps. The motor of the Stanford hand presses with at
-most 80 N, and the boom of the arm with at most 200 N. The remaining factor of 3.6, for impacts, is our choice. See
-"Crushed fingers" in `docs/figures.md`.
+most 80 N, and the boom of the arm with at most 200 N: together, 280 N. Impacts exert more, so we multiply by 3.6, a
+factor of our choice. See "Crushed fingers" in `docs/figures.md`.
 """
 _WHOLE_STATE: Final = int(mujoco.mjtState.mjSTATE_INTEGRATION)
 RESTING: Final = 1e-2
@@ -133,9 +133,9 @@ class _Contacts:
     pairs: BodyPairs
     of_hand: BodyPairs  # the pairs with a body that the arm moves
     carried: bool
-    """True if every pair of bodies that touch is a pair that may touch in long steps."""
+    """True if all these contacts are allowed in long steps."""
     delicate: bool
-    """True if at least one of the pairs is not allowed in steps of medium length."""
+    """True if at least one pair of bodies that touch is not allowed in steps of medium length."""
     held: tuple[tuple[int, int], ...]
     """The free bodies that the hand carries, each with the index of its pose among the positions of the simulator.
     Empty if `carried` is false.

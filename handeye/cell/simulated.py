@@ -21,8 +21,8 @@ from handeye.ports.clock import Clock, whole_steps
 from handeye.ports.workcell import Workcell
 
 _HELD: Final = 1 / 60
-"""Longest time (s) for which the action of a device on the simulator may stay constant. The time must be short: while
-the action stays constant, the finger servo moves, and screws enter their threads.
+"""Longest time (s) between two actions of the devices on the simulator. The time must be short, because the finger
+servo moves, and screws enter their threads, between two actions.
 """
 
 

@@ -50,12 +50,14 @@ STEEPEST: Final = radians(20.0)  # beyond this the tip does not bite at all. Pla
 RUNNING_TORQUE: Final = 0.02  # N m, a clean thread before the head seats. Assembly study.
 CROSSED_TORQUE: Final = 5.0  # N m: more than any driver has. Assembly study.
 BACKING_TORQUE: Final = 0.2
-"""Torque (N m) that turns a crossed screw back. It is less than the torque that jammed the screw. Placeholder."""
+"""Torque (N m) that turns a crossed screw back. This torque is smaller than the torque with which the screwdriver
+jammed the screw. Placeholder: the value has no source.
+"""
 THREAD_FRICTION: Final = 0.15  # steel on steel, dry. Assembly study.
 THREAD_RADIUS: Final = 0.00345  # m, mean thread radius over the cosine of the flank. Assembly study.
 STIFF: Final = (0.999, 0.9999, 0.0001)
-"""Constraint impedance of a thread. With MuJoCo's default impedance, a screw under load made two more turns without
-going deeper, as we measured.
+"""Constraint impedance of a thread. With MuJoCo's default impedance, a screw under load made two further turns without
+going deeper: we measured this.
 """
 
 MOTOR_STIFFNESS: Final = 0.032  # N m s/rad: twice the stall torque at 20 rad/s. Assembly study.

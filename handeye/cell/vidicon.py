@@ -19,8 +19,9 @@ GAMMA: Final = 0.7
 NOISE: Final = 1.0  # sigma, levels
 PEAK: Final = 12.5  # level of the bright parts
 BRIGHT: Final = 97  # percentile that counts as the bright parts
-"""The brightness of the bright parts is taken to be this percentile of the signal. The values from `BLUR` to `BRIGHT`
-are those of the signal chain in the vision study, section 0.1. They are placeholders that give a realistic picture.
+"""The camera takes this percentile of the signal as the brightness of the bright parts. The values from `BLUR` to
+`BRIGHT` are those of the signal chain in the vision study, section 0.1. They are placeholders that give a realistic
+picture.
 """
 GAIN_WINDOW: Final = 0.6
 """The target voltage is adjusted to the bright parts in the middle of the picture. This fraction of the width and of

@@ -61,8 +61,8 @@ def bench_agents(
     command: Annotated[
         str | None,
         Parameter(
-            help="The entrant: a command that is run in the folder of each task, reads brief.md there, and leaves "
-            "its program. The entrants `reference` and `trivial` are included with handeye."
+            help="The entrant: a command. It runs in the folder of each task, reads brief.md, and writes its "
+            "program into this folder. The entrants `reference` and `trivial` are included with handeye."
         ),
     ] = None,
     brief: Annotated[
@@ -204,7 +204,7 @@ def _try(chosen: "list[BenchTask]", folder: Path, kind: 'Literal["verdict", "err
 
 
 def _check(chosen: "list[BenchTask]", *, json: bool) -> int:
-    """Check tasks, and print the verdicts on their own solutions."""
+    """Judge the reference solution and the trivial solution of each task, and print the verdicts."""
     from rich.table import Table
 
     from handeye.agents.bench_check import checked

@@ -83,9 +83,10 @@ def assembly_trials(
 ) -> int:
     """Assemble in many worlds, to learn the success rate with its confidence interval, and what failed where.
 
-    The figures are the same for any number of processes. A trial whose process is killed is repeated once; an
-    exception counts as a failure. Trials that ended because this computer failed are repeated when the batch
-    continues. With --out, the command also writes figures.html, a page with the figures, into the folder of the batch.
+    The figures are the same for any number of processes. A trial whose process is killed is repeated once. A trial
+    that raises an exception counts as a failure. Trials that ended because this computer failed are repeated when the
+    batch continues. With --out, the command also writes figures.html, a page with the figures, into the folder of the
+    batch.
 
     Exit code 0: no silent failure; 1: no trial finished; 3: a silent failure: in some world, the program reported
         success but the referee disagreed; 2: bad input; 130: interrupted.
@@ -174,7 +175,7 @@ def dismantling_trials(
     """Assemble in many worlds, make the arm take each pump apart again, and count how often every part is back in
     place.
 
-    Trials in which the program assembled nothing are listed but not counted.
+    Trials in which nothing was assembled are listed but not counted.
 
     Exit code 0: no silent failure; 1: no trial finished; 3: a silent failure: in some world, the program reported
     everything undone but the referee disagreed; 2: bad input; 130: interrupted.
@@ -221,9 +222,9 @@ def compare_trials(
     error of the world, changes the success rate.
 
     All batches must be of the same kind. Each comparison counts only the trials that are in both of its batches. `p`
-    is the p-value of McNemar's exact test. The test looks at the trials that succeeded in only one of the two batches.
-    If neither batch is better, `p` is the probability that chance divides these trials at least as unequally between
-    the two batches as they are divided here.
+    is the p-value of McNemar's exact test. The test uses only the worlds in which one batch succeeded and the other
+    failed. `p` is the probability that chance alone splits these worlds between the two batches at least as unevenly
+    as they were split.
     """
     from handeye.trials.comparing import paired
     from handeye.trials.folder import read_batch

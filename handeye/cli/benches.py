@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from handeye.trials.insertion import Condition
 
 GRID_N: Final = 10
-PROGRAMS: Final = {"gentle": "the bench's own program", "1973": "the search of the 1973 listing"}
+PROGRAMS: Final = {"gentle": "the bench's own program", "1973": "the search from the listing of 1973"}
 MOST_SD: Final = 5.0  # mm; with a larger error, most holes would be outside the search
 
 
@@ -58,21 +58,21 @@ def insertion(
         float | None,
         Parameter(
             help="Diametral clearance between hole and pin, mm: .05 to 1. Default: .114 if --chamfer or --sd is "
-            "given, otherwise all clearances of the command's grid."
+            "given; if neither is given, the command tries several clearances."
         ),
     ] = None,
     chamfer: Annotated[
         float | None,
         Parameter(
-            help="Chamfer of the hole, mm: 0 (a sharp edge) to 2. Default: 1 if --clearance or --sd is given, "
-            "otherwise all chamfers of the command's grid."
+            help="Chamfer of the hole, mm: 0 (a sharp edge) to 2. Default: 1 if --clearance or --sd is given; if "
+            "neither is given, the command tries several chamfers."
         ),
     ] = None,
     sd: Annotated[
         float | None,
         Parameter(
-            help="Standard deviation of the hole's position error along each axis, mm: 0 to 5. Default: 1 "
-            "if --clearance or --chamfer is given, otherwise the deviations of the grid."
+            help="Standard deviation of the hole's position error along each axis, mm: 0 to 5. Default: 1 if "
+            "--clearance or --chamfer is given; if neither is given, the command tries several deviations."
         ),
     ] = None,
     search: Annotated[
@@ -89,8 +89,8 @@ def insertion(
 
     The arm, hand and servo are the same as in the pump's cell. The plate has one hole, which is displaced along each
     axis by a normally distributed error. As with the pump, worlds differ in the errors of arm and hand. A trial begins
-    with the pin held over the hole. Without --clearance, --chamfer and --sd, the command tries several conditions:
-    that of a published benchmark, and conditions that differ from it in one value. This takes some minutes.
+    with the pin held over the hole. Without --clearance, --chamfer and --sd, the command tries the condition of a
+    published benchmark, and several conditions that differ from this condition in one value. This takes some minutes.
 
     Peak force is the greatest force between pin and plate in any physics step, from the simulator's ground truth; the
     program never sees this force. Ctrl-C stops the command and prints the trials that have finished.
@@ -111,7 +111,7 @@ def insertion(
         cases,
         head_of(INSERTION, world, camera="ray"),
         options,
-        title=f"insertion bench with {PROGRAMS[search]}, in worlds whose seeds count up from {seed}",
+        title=f"insertion bench with {PROGRAMS[search]}, in worlds with seeds from {seed} upwards",
     )
 
 

@@ -64,7 +64,7 @@ trials base = trials:base_vision_trials: Find the base of the pump on the belt, 
 trials gasket = trials:gasket_vision_trials: Inspect the gasket by camera in four cases: in place, shifted by .3 in, absent, and with a second gasket on top.
 trials chaos = trials:chaos_trials: Chaos test: random faults, crashes, interruptions and operator answers; each failure is reduced to one command that repeats it.
 trials mutants = mutants:mutant_trials: Make mutants of a program, each with one check taken away or weakened. Does the proof refuse each mutant? If not, does another check catch the faults for which the changed check was meant?
-trials record = datasets:record: Record runs in many worlds, each with its trace in a folder of its own: for data sets and reports.
+trials record = datasets:record: Record runs in many worlds, for data sets and reports; keep each run and its trace in a folder of its own.
 trials rare = rare:rare_trials: Estimate, by subset simulation, how rarely a program stops, and how rarely it fails silently.
 trials worst = rare:worst_trials: Find the failing worlds whose errors are smallest, and the quantities that make the program fail.
 env: Gymnasium environments of the cell, for learned policies; need the extra `env` (gymnasium).
@@ -110,8 +110,8 @@ def restore_docstring(command: object) -> None:
 
 
 def add_commands(app: App, table: str, folder: str = "") -> None:
-    """Add the commands of a table; existing commands stay. Without `folder`, the table gives the full names of
-    modules.
+    """Add the commands of a table. A command that `app` already has under the same name is not replaced. If `folder`
+    is empty, the table must give the full names of modules.
     """
     for line in table.strip().splitlines():
         named, sentence = line.split(": ", 1)

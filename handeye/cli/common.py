@@ -40,7 +40,7 @@ TaskWords = Annotated[
     Parameter(
         name="--task",
         help="The task: its name, or MODULE:NAME for a task of your own, in a module on Python's path or in the "
-        "current folder. Default: the task of the plan, program or run, or else the water pump.",
+        "current folder. Default: the task that the plan, program or run names; if it names none, the water pump.",
     ),
 ]
 CameraKind = Literal["auto", "gl", "ray"]

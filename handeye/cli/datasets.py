@@ -35,7 +35,7 @@ def lerobot(
     overwrite: Overwrite = False,
     pictures: Annotated[
         bool,
-        Parameter(negative="--no-pictures", help="Include the television pictures, without loss."),
+        Parameter(negative="--no-pictures", help="Include the television pictures, compressed without loss."),
     ] = True,
     view: Annotated[
         str | None,
@@ -82,7 +82,7 @@ def record(
     jobs: Annotated[WholeNumber, Parameter(help="Number of processes that work at the same time.")] = 2,
     json: Json = False,
 ) -> int:
-    """Record runs in many worlds, each with its trace in a folder of its own: for data sets and reports.
+    """Record runs in many worlds, for data sets and reports; keep each run and its trace in a folder of its own.
 
     The same command continues an interrupted recording. Runs that have ended are not repeated, so a greater --n adds
     runs. `handeye export lerobot` writes the runs as a data set.

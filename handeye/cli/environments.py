@@ -96,7 +96,7 @@ def evaluate(
         cases(first, range(n)),
         head_of(EPISODES, WorldSpec(seed=first), settings=head, camera="ray"),
         options,
-        title=f"{policy} in {env}, in worlds whose seeds count up from {seed}",
+        title=f"{policy} in {env}, in worlds with seeds from {seed} upwards",
         again=lambda row: _again(row, policy, env, chosen, level),
     )
 

@@ -56,7 +56,7 @@ def exercise(
     handeye exercise find find.al --first-seed 1000
     ```
 
-    Exit code 0: the program is right in every world; 1: the program is not right in at least one world; 3: a silent
+    Exit code 0: the program is right in every world; 1: in at least one world, the program is not right; 3: a silent
     failure: in at least one world, the program reported success but its work is wrong; 2: bad input, or a program with
     mistakes.
     """

@@ -113,8 +113,8 @@ class _Work:
         """The last checkpoint that was saved outside the folder of the run."""
 
     def _unnamed(self) -> UnnamedRun | None:
-        """A folder for the run, if the user named none. None if the folder cannot be made: the run then continues
-        without one.
+        """Return a folder for a run for which the user named no folder. Returns None if unnamed runs are not saved, or
+        if the folder cannot be made: the run then continues without a folder.
         """
         home = runs_folder()
         if home is None:
@@ -217,7 +217,7 @@ class _Work:
     # -- carrying out ---------------------------------------------------------------------------------
 
     def _parts(self, runner: Runner) -> Pause:
-        """Assemble, then undo and assemble again as often as requested, as long as the referee accepts each result."""
+        """Assemble, then carry out the further parts of the job. Stop early if the referee rejects a result."""
         pause = runner.kind.carry_out(runner, lambda: self._attended(runner))
         for part in self.job.then:
             if pause.kind != "end" or not all_right(findings(runner, pause)):

@@ -120,7 +120,7 @@ def carry_out_job_trials(
     Args:
         settings: settings of all trials, recorded with each trial.
         title: heading that says what the trials do.
-        again: words of the command that repeats a trial; its seed and errors are added.
+        again: words of the command that repeats a trial, without the seed and the errors of the trial.
     """
     from handeye.trials.folder import head_of
     from handeye.trials.jobs import JobWork

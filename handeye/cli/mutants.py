@@ -31,7 +31,7 @@ def mutant_trials(
     most: Annotated[
         WholeNumber,
         Parameter(
-            help="Run each mutant with at most this number of faults, one fault in each run; 0: only prove, and run "
+            help="Greatest number of faults to run each mutant with. Each run has one fault. 0: only prove, and run "
             "nothing."
         ),
     ] = 5,
@@ -50,9 +50,9 @@ def mutant_trials(
     not, does another check catch the faults for which the changed check was meant?
 
     If `handeye check --prove` accepts a mutant, the mutant runs from the beginning of its stage, once with each fault
-    for which the changed check is meant. The mutant is `caught` if it stops, `silent` if it reports success with wrong
-    work, and `unnoticed` if all runs end with the right work. If the changed check is meant for no known fault, the
-    mutant is `not run`.
+    for which the changed check is meant. The mutant is `silent` if, in at least one run, it reports success although
+    the work is wrong. A mutant that is not silent is `caught` if at least one run stops, and `unnoticed` if all runs
+    end with the right work. If the changed check is meant for no known fault, the mutant is `not run`.
 
     Exit code 0: no mutant was silent; 1: no trial finished; 3: a mutant was silent; 2: bad input; 130: interrupted.
     """

@@ -12,8 +12,8 @@ from handeye.core.signals import ToldToEnd, break_in, heard
 
 
 class PanicButton:
-    """While the context is open, Ctrl-C presses the panic button. If the first press has no effect, the second one
-    interrupts as usual.
+    """While the context is open, Ctrl-C presses the panic button. If the program has not yet noticed the first press,
+    the second Ctrl-C interrupts the program as usual.
     """
 
     def __init__(self) -> None:
@@ -36,8 +36,8 @@ class PanicButton:
 
     @contextmanager
     def aside(self) -> Iterator[None]:
-        """While the context is open, the user answers a question, so Ctrl-C interrupts as usual. After a `kill`,
-        no more questions are asked.
+        """While the context is open, the user is answering a question, and Ctrl-C interrupts as usual. Raises
+        ToldToEnd if a `kill` has already asked the program to end.
         """
         if self._told:
             raise ToldToEnd

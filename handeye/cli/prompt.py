@@ -53,7 +53,7 @@ def typed_lines(
 
 def typed_already() -> str | None:
     """A line typed at the terminal before the prompt; None if no line was typed, or if the terminal does not show
-    whether one was.
+    whether a line was typed.
     """
     if sys.platform == "win32":
         return None

@@ -59,7 +59,7 @@ def refuse_with_prove(*, strict: bool, watch: bool) -> None:
 
 def proved(file: Path, task_words: str | None, options: ProofOptions, *, json: bool) -> int:
     """Prove the obligations of the task of a script or plan. Returns the exit code: 0 if all obligations are shown on
-    every path to the end, or else 2.
+    every path to the end, 2 if not.
     """
     from handeye.proof.argument import argument, unproved
 

@@ -214,8 +214,8 @@ def rare_trials(*, options: SampleOptions = ANY_SAMPLE) -> int:
     The worlds of the first level are made from seeds. From each level, the search takes one tenth of the worlds: those
     in which the program comes closest to failing. The next level is a sample of worlds in which the program comes at
     least this close to failing. The estimate of the probability is a product: one tenth for each level except the
-    last, times the fraction of worlds of the last level in which the program fails. The product is not a bound. Only a
-    run in a world decides whether the program fails there.
+    last, times the fraction of worlds of the last level in which the program fails. This estimate is not an upper
+    bound. Whether the program fails in a world is always found by a run in that world, never estimated.
 
     Exit code 0: no silent failure; 3: in some world, the program reported success but the referee disagreed; 2: bad
     input; 130: interrupted.
@@ -251,7 +251,7 @@ def worst_trials(
         Parameter(
             help=(
                 "Number of further searches, for failing worlds with even smaller errors. Each search starts from "
-                "one of the nearest failing worlds found so far."
+                "one of the failing worlds with the smallest errors found so far."
             )
         ),
     ] = 5,

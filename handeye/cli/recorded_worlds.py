@@ -20,8 +20,8 @@ _CAMERAS: Final[dict[str, CameraKind]] = {"opengl": "gl", "rays": "ray"}
 
 
 def in_world_of(path: Path, plan: Plan, *, judged: bool) -> Setup:
-    """The setup with which a plan runs in the world of a recorded run, with the faults and the camera of that run.
-    Raises InvalidInput if the plan cannot run in that world.
+    """The setup of a plan that runs in the world of a recorded run. The faults and the camera are also those of the
+    recorded run. Raises InvalidInput if the plan cannot run in that world.
     """
     events = _events(path)
     if not events or not isinstance(events[0], RunStarted):

@@ -211,7 +211,9 @@ def show(run: Run = None, /, *, json: Json = False) -> int:
 
 
 def _way_on(folder: Path, result: "Result") -> str:
-    """The command that resumes a run; a run that used Python code of its caller must be resumed from Python."""
+    """Return a sentence that says how to resume a run: with a command, or from Python if the run used Python code of
+    the calling program.
+    """
     from handeye.runs.parts import deciding, given_as
     from handeye.tasks import known_any, option
 

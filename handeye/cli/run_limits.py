@@ -61,8 +61,9 @@ def check_ahead(start: "Checkpoint", stops: list["AnyStop"], breaks: list[str]) 
 
 
 def checkpoint_folder(checkpoints: Path | None, out: Path | None) -> Path | None:
-    """The folder that is searched for checkpoints: the given folder, or the folder of checkpoints in the folder of
-    a run.
+    """Return the folder to search for checkpoints: `checkpoints` itself, or, if `checkpoints` is the folder of a run,
+    the folder of checkpoints in it. If `checkpoints` is None, the function takes the run in `out` instead. Returns
+    None if both are None.
     """
     from handeye.runs.folder import CHECKPOINTS
 

@@ -87,8 +87,9 @@ def assemble(
         list[Then] | None,
         Parameter(
             consume_multiple=False,
-            help="What to do after the referee has accepted the pump: `dismantle` makes the arm take the pump apart, "
-            "and then `assemble` assembles it again. Repeat the option to do both in turn.",
+            help="What to do after the referee has accepted the pump. The first --then must be `dismantle`: the arm "
+            "takes the pump apart. A second one, `assemble`, makes the arm assemble the pump again. You can repeat "
+            "both in turn.",
         ),
     ] = None,
 ) -> int:
@@ -153,8 +154,8 @@ def run(
         bool | None,
         Parameter(
             negative="--no-judge",
-            help="Have the referee, which knows the true state of the cell, judge the result. Default: only if the "
-            "plan is given by the name of a program.",
+            help="Have the referee judge the result; the referee knows the true state of the cell. Default: only if "
+            "the plan is given by the name of a program.",
         ),
     ] = None,
     json: Json = False,
@@ -334,4 +335,6 @@ def check_kept(no_keep: bool, out: Path | None) -> None:
 def _check_live(live: bool, step: bool) -> None:
     """Raises InvalidInput for --live without --step."""
     if live and not step:
-        raise BadArgument("--live needs --step: --live shows the lines of a stepped run as they begin")
+        raise BadArgument(
+            "--live needs --step: it prints each line of the program when the run begins this line"
+        )

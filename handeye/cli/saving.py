@@ -33,8 +33,8 @@ class OptionalRecord(Observer):
     """Saves a run for which the user named no folder. If the disk is full, the run continues without being saved."""
 
     def __init__(self, saving: Callable[[], AbstractContextManager[Observer]]) -> None:
-        """`saving` returns a context that yields the folder. If the folder cannot be written, the context removes the
-        folder.
+        """`saving` returns a context that yields the folder. If writing fails, the context catches the error; later
+        contexts yield an observer that saves nothing.
         """
         self._saving = saving
 

@@ -60,8 +60,8 @@ def check(
         bool,
         Parameter(
             group=PROOF,
-            help="Also prove, for each finding of the task's referee: on every path to its end, the program would "
-            "notice if the finding did not hold. FILE may also be a plan.",
+            help="Also prove that, on every path to the end of the program, the program would notice if a finding "
+            "of the task's referee did not hold. With --prove, FILE may also be a plan.",
         ),
     ] = False,
     proof: ProofOptions | None = None,
@@ -168,8 +168,8 @@ def plan(
     Parameters
     ----------
     output
-        File for the plan. By default, the file is next to the script, or in the current folder if you name a program of
-        handeye; its ending is .plan.json. An earlier plan at the default place is replaced; to replace another file,
+        File for the plan. The default is a file with the ending .plan.json next to the script; for a program of
+        handeye, in the current folder. An earlier plan at the default place is replaced; to replace another file,
         give --overwrite.
     """
     script, work = script_at(file, task)

@@ -41,7 +41,7 @@ def seeds_of(n: int | None, seed: int | None, seeds: str | None, *, usual: int) 
 
 
 def _range(text: str) -> range:
-    """The seeds for a number or a range, as typed; raises BadArgument if the text is neither."""
+    """Return the seeds that the text names. Raises BadArgument if the text is neither a number nor a range."""
     found = re.fullmatch(f"([0-9]{{1,{LONGEST_NUMBER}}})(?:-([0-9]{{1,{LONGEST_NUMBER}}}))?", text.strip())
     first, last = (0, -1) if found is None else (int(found[1]), int(found[2] or found[1]))
     if last < first:

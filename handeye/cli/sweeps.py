@@ -254,7 +254,7 @@ def sweep_command(sweep: "Sweep[Any]", n: int = 10) -> Callable[..., int]:
         if sweep.work is None:
             raise BadArgument(f"trials of the kind {sweep.kind} need options; use their own command")
         world = WorldSpec(seed=checked_seed(seed))
-        title = f"{sweep.kind} in worlds whose seeds count up from {seed}"
+        title = f"{sweep.kind} in worlds with seeds from {seed} upwards"
         return carry_out_sweep(
             sweep, sweep.work, cases(seed, range(number)), head_of(sweep, world), options, title=title,
             again=lambda row: f"handeye trials {sweep.kind} --n 1 --seed {row.seed}",

@@ -44,7 +44,7 @@ Keep = Annotated[Path | None, Parameter(help="At the end, save the state of the 
 @Parameter(name="*")
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CellOptions:
-    """The cell for the work, with its faults and taught positions."""
+    """The work cell, with the faults in the cell and the taught positions."""
 
     world: Annotated[WorldOptions, Parameter(name="*")] = ANY_WORLD
     fault: Faults = None

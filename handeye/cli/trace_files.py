@@ -23,7 +23,9 @@ RunOrEvents = Annotated[
 
 
 def run_or_newest(given: Path | None) -> Path:
-    """The given run or, with a printed note, the newest run; raises InvalidInput if there is none."""
+    """The given run. If no run is given, the newest run, which a printed note names; raises InvalidInput if there is
+    no run.
+    """
     if given is not None:
         return given
     from handeye.runs.unnamed_runs import newest_runs
@@ -70,7 +72,9 @@ def trace_file(path: Path) -> Path:
 
 
 def motion_file(path: Path) -> Path:
-    """Like `trace_file`, for a caller that needs positions; raises InvalidInput if there is only an event list."""
+    """Return the path that `trace_file` returns, for a caller that needs the recorded positions. Raises InvalidInput
+    if the file is only an event list.
+    """
     file = trace_file(path)
     if file.suffix == ".jsonl":
         raise Refused(f"{file} is an event list, which holds no positions; use the trace.mcap")

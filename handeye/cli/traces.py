@@ -101,8 +101,8 @@ def verify(run: RunOrTrace = None, /, *, task: TaskWords = None) -> int:
     """Repeat a recorded run, and compare the repetition with the recording.
 
     The actions of operators and experimenters are repeated as well. An interrupted run is compared up to its last
-    complete step. There are three answers. The run repeats exactly. The run repeats except for rounding in the last
-    digits, which differs on another kind of processor or with other versions. Or the run differs, and the answer says
+    complete step. The command reports one of three results: the run repeats exactly; it repeats except for rounding in
+    the last digits, which depends on the kind of processor and on the versions; or it differs, and the report says
     where.
 
     Exit code 0: the run repeats, exactly or except for rounding; 1: it differs; 2: bad input.
@@ -132,8 +132,8 @@ def verify(run: RunOrTrace = None, /, *, task: TaskWords = None) -> int:
         say(f"{file} does not repeat{elsewhere}: {found.parts}")
         if found.rounded is not None:
             say(
-                "before that, numbers differ only by rounding, which depends on the kind of processor; the first "
-                f"difference: {found.rounded}"
+                "before this difference, numbers differ only by rounding, which depends on the kind of processor; "
+                f"the first difference by rounding: {found.rounded}"
             )
         return 1
     count = settled(events)

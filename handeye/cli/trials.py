@@ -94,7 +94,7 @@ def base_vision_trials(
     n: Annotated[
         WholeNumber,
         Parameter(
-            help="Number of poses of the base to try: the first is the pose that the base has in the world, the "
+            help="Number of poses of the base to try. The first is the pose that the base has in the world; the "
             "others are random."
         ),
     ] = 100,
@@ -178,7 +178,7 @@ def _chosen(known: "Sequence[Disturbance]", only: "list[str] | None") -> "list[D
         raise Refused("this task has no disturbances")
     for name in only or ():
         if name not in names:
-            near = suggestion(name, names) or "--list lists them"
+            near = suggestion(name, names) or "--list lists all disturbances"
             raise NoSuchName(f"there is no disturbance {quoted(name)}; {near}")
     return [each for each in known if not only or each.name in only]
 
@@ -201,7 +201,8 @@ def chaos_trials(
     schedule: Annotated[
         list[str] | None,
         Parameter(
-            help="Run this schedule, written as this command prints it, instead of random schedules. May be repeated.",
+            help="Schedule to run instead of random schedules, in the form in which the command prints schedules. "
+            "May be repeated.",
             consume_multiple=False,
         ),
     ] = None,
@@ -224,13 +225,13 @@ def chaos_trials(
     retries, skips, proceeds or aborts. The same schedule then runs again without its interruptions.
 
     There are six checks. `silent`: the program never reports success with a wrong pump. `resume`: trace, events and
-    state are the same to the byte as without interruptions. `brakes`: the brakes are on after every stop. `trace`: the
-    trace can be read and says what happened. `disk`: nothing is lost on disk. `error`: no exception is raised. If a
-    schedule fails, the trial removes its elements one by one, and keeps only those without which the schedule does not
-    fail. The trial then prints this shortest failing schedule as a command. If a fault spoiled a part of the pump only
-    after the program's last look at this part, the schedule is `unseen` instead of silent. Before the schedules, the
-    command makes one complete run in each world. A complete run takes one CPU minute, and a schedule takes some
-    seconds.
+    state are the same, to the byte, as in the run without interruptions. `brakes`: the brakes are on after every stop.
+    `trace`: the trace can be read and says what happened. `disk`: nothing is lost on disk. `error`: no exception is
+    raised. If a schedule fails, the trial removes its elements one by one, and keeps only the elements that are needed
+    for the failure. The trial then prints this shortest failing schedule as a command. If a fault spoiled a part of
+    the pump only after the program's last look at this part, the schedule counts as `unseen`, not as `silent`. Before
+    the schedules, the command makes one complete run in each world. A complete run takes one CPU minute, and a
+    schedule takes some seconds.
 
     Exit code 0: all checks passed; 3: a check failed; 2: bad input; 130: interrupted.
     """

@@ -42,8 +42,8 @@ def view(
     teach: Annotated[
         Path | None,
         Parameter(
-            help="Teach positions instead of running a plan, as `handeye teach` does. Give a taught file, or its "
-            "script."
+            help="Teach positions in the browser, as `handeye teach` does in the terminal; no plan runs. Give a "
+            "taught file, or the script to which the taught file belongs."
         ),
     ] = None,
     port: Annotated[WholeNumber, Parameter(help="Port on this computer; 0 for any free port.")] = 0,

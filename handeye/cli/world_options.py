@@ -29,10 +29,10 @@ Faults = Annotated[
         name="--fault",
         group=WORLD,
         consume_multiple=False,
-        help="A fault: NAME or NAME=VALUE. Add @STAGE to begin the fault at that stage instead of at the start. A "
-        "fault of the arm in a job of ML begins after a time, such as @30s. `handeye faults --list` lists the "
-        "faults of the pump; with `--task NAME`, the command lists the faults of another task. To plant several "
-        "faults, repeat --fault.",
+        help="A fault: NAME or NAME=VALUE. Add @STAGE to begin the fault at that stage instead of at the start. The "
+        "jobs of ML have no stages: to begin a fault of the arm at a given time, add a time, such as @30s. `handeye "
+        "faults --list` lists the faults of the pump; with `--task NAME`, the command lists the faults of another "
+        "task. To plant several faults, repeat --fault.",
     ),
 ]
 
@@ -82,13 +82,15 @@ class ErrorOptions:
         return any_task(DEFAULT) if self.task is None else named(self.task)
 
     def of(self, name: str) -> Self:
-        """A copy of these options for the task called `name`, which a plan or a run records. The method imports no
-        task module.
+        """A copy of these options for the task called `name`. The name comes from a plan or a run. The method imports
+        no task module.
         """
         return replace(self, task=any_task(name).name)
 
     def spec(self, seed: int) -> WorldSpec:
-        """The world of a seed with these errors; raises InvalidInput if a seed, name, unit or value is invalid."""
+        """The world of this seed, with the errors that the options choose. Raises InvalidInput if a seed, name, unit
+        or value is invalid.
+        """
         checked_seed(seed)
         off = self._names()
         if "" in off:
@@ -113,9 +115,9 @@ class ErrorOptions:
         replace(self, without=None).spec(seed)
 
     def apart(self, calls: Set[str]) -> "tuple[ErrorOptions, tuple[str, ...]]":
-        """Split the names in `--without`. The first value is a copy of these options whose `--without` keeps only the
-        errors of the world. The second value names the senses and macros that the program must do without, each name
-        once.
+        """Split the names in `--without`. The first value is a copy of these options. In this copy, `--without` names
+        only errors of the world. The second value names the senses and macros that the program must do without, each
+        name once.
         """
         names = [name.upper() if name.upper() in calls else name for name in self._names()]
         spared = [*SENSES, *sorted(calls)]
@@ -231,8 +233,8 @@ class WorldOptions:
         return given.world
 
     def apart(self, calls: Set[str]) -> "tuple[WorldOptions, tuple[str, ...]]":
-        """Split the names in `--without`. The first value is a copy of these options whose `--without` keeps only the
-        errors of the world. The second value contains the senses and macros that the program must do without.
+        """Split the names in `--without`. The first value is a copy of these options. In this copy, `--without` names
+        only errors of the world. The second value contains the senses and macros that the program must do without.
         """
         errors, spared = self.errors.apart(calls)
         return replace(self, errors=errors), spared

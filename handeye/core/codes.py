@@ -46,7 +46,8 @@ CODES: Final[dict[str, Code]] = {
         "an AOJ has no SEARCH before it on any path of the program", "L: MOVE T\nAOJ L"
     ),
     "axis-count": _error(
-        "the number in a FREE or SPIN differs from the number of axes named after it", "FREE 2 X\nCHANGE X 1"
+        "a FREE or SPIN gives a number of axes, and lists more or fewer axes than this number",
+        "FREE 2 X\nCHANGE X 1",
     ),
     "carries-through-fixture": _planning(
         "the part in the hand would go through a fixture",
@@ -67,7 +68,7 @@ CODES: Final[dict[str, Code]] = {
     ),
     "empty-program": _error("the program has no instructions", "; nothing"),
     "endless-loop": _warning(
-        "a loop that moves the arm has no exit: only an error for which the program has no test can end the loop",
+        "a loop that moves the arm has no exit except an error for which the program has no test",
         "L: MOVE T\nJUMP L",
     ),
     "error-never-raised": _warning(
@@ -80,7 +81,7 @@ CODES: Final[dict[str, Code]] = {
         phase="strict",
     ),
     "finding-undecided": _proof(
-        "the prover cannot decide whether the program always notices when a finding of the referee does not hold",
+        "the prover cannot decide whether every path through the program shows that a finding of the referee holds",
         "HERE A\nPARK\nMOVE A",
     ),
     "finding-unnoticed": _proof(
@@ -108,7 +109,8 @@ CODES: Final[dict[str, Code]] = {
     "line-too-long": _error("a line is too long", f"OPEN 1\n;{'-' * 1000}"),
     "load-beyond-arm": _planning("a load is heavier than the arm can hold", "LOAD 900\nMOVE T"),
     "macro-ends-early": _warning(
-        "a macro ends with a modifier, and the blank line that ends the macro separates the modifier from its motion",
+        "a macro ends with a modifier, and the motion that the modifier should change follows only after the blank "
+        "line that ends the macro",
         "DEFINE DOWN\nSTOP 50\n\nCHANGE Z -1\n\nMOVE T\nDOWN\nPARK",
     ),
     "macro-name-taken": _error("a macro has the name of an instruction", "DEFINE OPEN\nPARK\n\nPARK"),
@@ -236,7 +238,7 @@ CODES: Final[dict[str, Code]] = {
     ),
     "typed-word": _error("a console command is written in a script", "OPEN 3\nDO PARK"),
     "unexpected-character": _error("a character is not part of the language", "OPEN = 1"),
-    "unit-written": _error("a number is written with a unit", "OPEN 1.5 in"),
+    "unit-written": _error("a number has a unit, but numbers are written without units", "OPEN 1.5 in"),
     "unknown-axis": _error("an axis is not X, Y or Z", "FREE 1 W\nCHANGE X 1"),
     "unknown-counter": _error(
         "an instruction uses a counter, but no ASSIGN sets this counter", "L: PARK\nSOJG N L"
@@ -248,7 +250,7 @@ CODES: Final[dict[str, Code]] = {
     "unknown-label": _error("a jump goes to a label that no statement has", "JUMP NOWHERE"),
     "unknown-lens": _error("the lens turret has no lens with this focal length", "LENS 35"),
     "unknown-parameter": _warning(
-        "a text in a macro has a name in braces, but the macro has no such parameter",
+        "a text in a macro contains a name in braces that is not a parameter of the macro",
         'DEFINE A S\nMOVE S\nWAIT "NOT AT {P}"\n\nA T',
     ),
     "unknown-part": _error("a part is unknown", "TRANS A [0 0 0 0 0 0] OF LID\nPARK"),

@@ -79,7 +79,7 @@ class Entry(Record, frozen=True, kw_only=True):
     programs: str = ""
     """`module:NAME` of a function that returns the plan with which a program does a task. The function takes the name
     of the task, the name and text of the program, and a variant of the task (empty for the usual one). This field is
-    empty if the system has no such tasks, or if it runs plans of motions.
+    empty if the system has no tasks that a program can do, or if the plans of the system consist of motions.
     """
     orders: str = ""
     """`module:NAME` of a function that takes the name and text of a program. It returns the problems that the program

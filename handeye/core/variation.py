@@ -235,7 +235,7 @@ class Variation:
         found = tuple(q for q in those if q.distribution.is_error and (name != UNSOURCED or q.unsourced))
         if not found:
             what = "no unsourced error" if name == UNSOURCED else f"no error in {quoted(name)}"
-            raise BadArgument(f"a scale cannot apply: the world has {what}")
+            raise BadArgument(f"there is nothing to scale: the world has {what}")
         return found
 
     def check(self, spec: WorldSpec) -> None:

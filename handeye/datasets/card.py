@@ -84,4 +84,4 @@ def _contents(episodes: Sequence[Episode], frames: int) -> Iterator[str]:
     faults = sum(bool(each.world.faults) for each in episodes)
     yield f"- {counted(faults, 'episode')} in a world with an injected fault"
     levels = sorted({each.world.level for each in episodes})
-    yield f"- errors of the worlds: {', '.join(levels)}"
+    yield f"- error levels of the worlds: {', '.join(levels)}"

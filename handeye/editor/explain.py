@@ -138,7 +138,7 @@ class Remedy:
 REMEDIES: Final[dict[int, Remedy]] = {
     errors.JOINT_LIMIT: Remedy(
         "The planner reports this error for a planned position. During a run, the error occurs when a part lies "
-        "farther away than planned. In that case, take another path.",
+        "farther away than planned. Test for the error in the program, so that the arm can take another path.",
         "MOVE T\nSKIPE 1 ;T is too far away\nJUMP NEAR\nMOVE P\nNEAR: OPEN 1",
     ),
     errors.NOTHING_HELD: Remedy(
@@ -165,8 +165,8 @@ REMEDIES: Final[dict[int, Remedy]] = {
     ),
     errors.SEARCH_EXHAUSTED: Remedy(
         "A search has 49 places, or another number if the SEARCH has STEPS. If you do not test for this error, the "
-        "error calls the operator. A call is usually right here, because the hole is not where you search. To give "
-        "up sooner, count the places with SOJG.",
+        "error calls the operator. The call is usually right, because the hole lies outside the searched places. "
+        "To give up sooner, count the places with SOJG.",
         "ASSIGN TRIES 9\nSEARCH .07\nL: MOVE T\nSTOP [0 0 -50]\nCHANGE [0 0 -1] .7\nSKIPN 23 ;it met something\n"
         'JUMP IN\nSOJG TRIES NEXT\nWAIT "NO HOLE HERE"\nNEXT: AOJ L\nIN: OPEN 1',
     ),
@@ -216,8 +216,8 @@ REMEDIES: Final[dict[int, Remedy]] = {
         'WAIT "CHECK THE GASKET"\nPARK',
     ),
     errors.PART_ASTRAY: Remedy(
-        "The part was moved or removed since the earlier picture, or the arm is in another place and casts its "
-        "shadow on the part: look again, or ask the operator.",
+        "Either the part has been moved or removed since the earlier picture, or the arm is now in another place "
+        "and casts its shadow on the part. Look again, or ask the operator.",
         "LOOK BEFORE\nMOVE P\nLOOK AFTER HOLD\nMATCH BASE BEFORE AFTER\nSKIPN 33 ;it stands as it stood\n"
         'WAIT "SOMEBODY HAS MOVED THE BASE"\nPARK',
     ),
@@ -230,8 +230,8 @@ REMEDIES: Final[dict[int, Remedy]] = {
     ),
     errors.GAP_WRONG: Remedy(
         "If nothing is in the way of the fingers, the potentiometer that measures the gap is broken. In that case, "
-        "do not test for the error. If the fingers may meet an object as they open, open them less. A held part "
-        "that slips or is pushed also changes the gap.",
+        "leave out the test, so that the error calls the operator. If the fingers may meet an object as they open, "
+        "open them less. A held part that slips or is pushed also changes the gap.",
         "OPEN 1.8\nSKIPN 51 ;the fingers reached their gap\nOPEN 1.5\nMOVE P",
     ),
     errors.FORCE_WRONG: Remedy(

@@ -12,7 +12,7 @@ from pygls.exceptions import JsonRpcException, JsonRpcInvalidParams
 from pygls.protocol import LanguageServerProtocol
 
 PAUSE_S: Final = 3.0
-"""Time (s) between two checks that the editor is still running."""
+"""Time (s) between two checks whether the editor is still running."""
 _log: Final = logging.getLogger(__name__)
 
 

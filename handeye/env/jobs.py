@@ -38,8 +38,8 @@ class Job(Record, frozen=True, kw_only=True):
     machine: str = "handeye.env.controlled_arm:ControlledArm"
     """`module:NAME` of the class of the job's machine, derived from `handeye.env.controls.ControlledMachine`."""
     policies: Mapping[str, str] = msgspec.field(default_factory=dict)
-    """The included policies that only this job has: for the name of each policy, the `module:NAME` of the class or
-    function that makes the policy.
+    """Policies that are included with handeye for this job only. Each key is the name of a policy. Its value is the
+    `module:NAME` of the class or function that makes the policy.
     """
     stages: tuple[int, ...] = (0,)
     """Numbers of the stages before which an episode may start; the first stage of the program is 0. If there are
@@ -52,14 +52,14 @@ class Job(Record, frozen=True, kw_only=True):
     findings must hold.
     """
     limits: Mapping[str, float] = msgspec.field(default_factory=dict)
-    """For some findings, limits that replace the referee's limits, because the job leaves out a part of the work.
+    """Limits that replace the referee's limits for some findings, in a job that leaves out a part of the work.
     """
     plants: tuple[str, ...] = ()
-    """The faults that can be planted at the start. The seed determines which of them is planted, and its size."""
+    """The faults that can be planted at the start. The seed determines the fault and its size."""
     sizes: tuple[float, float] = (0.0, 0.0)  # least and greatest size of a planted fault, in the fault's unit
     steps: Mapping[str, tuple[str, ...]] = msgspec.field(default_factory=dict)
-    """Steps of the work, in their order. Each key is the name of a step. Its value lists the findings that must hold
-    if the step is done, each given by the beginning of its name.
+    """Steps of the work, in their order. For the name of each step, the findings that must hold if the step is done. A
+    finding is given by the beginning of its name.
     """
 
     def requires(self, finding: str) -> bool:

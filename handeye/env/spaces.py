@@ -30,7 +30,9 @@ SWITCHED: Final = 0.5  # a switch of the action is on above this value
 
 _RATE: Final = 1e3  # beyond any rate of a joint, rad/s or m/s
 _FAR: Final = 1e3
-"""No reading of a position (rad, m or mm), of a force (N) or of the screwdriver (N m) reaches this bound."""
+"""No reading reaches this bound: neither a position (rad, m or mm), nor a force (N), nor a torque of the screwdriver
+(N m).
+"""
 _LATE: Final = 1e6  # beyond any reading of the clock, s
 
 

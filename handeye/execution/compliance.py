@@ -26,7 +26,7 @@ class Course:
     free: Array = field(default_factory=lambda: np.zeros(3))
     """1 for each axis of W along which the hand yields to force, and 0 for the others, shape (3,)."""
     moment: Array = field(default_factory=lambda: np.zeros(3))
-    """Moment (N m, shape (3,)) that the hand exerts about the tool centre point while it turns."""
+    """Moment (N m, shape (3,)) that the turning hand exerts about the tool centre point."""
     spin: Array = field(default_factory=lambda: np.zeros(3))
     """1 for each axis of W about which the hand yields to moment, and 0 for the others, shape (3,)."""
     friction: Array = field(default_factory=lambda: np.zeros(6))

@@ -57,7 +57,9 @@ class ExecutionContext:
     without: frozenset[str] = frozenset()  # senses not used; see `program.senses`
     arithmetic: Callable[[ArmModel], ArmArithmetic] = Formulas  # computes an arm at one configuration
     vision: Stopwatch = field(default_factory=Stopwatch)
-    """CPU time of vision, in s. The working phase itself reads no clock of the computer."""
+    """CPU time of vision, in s. The runner gives the stopwatch its clock; the execution itself reads no clock of the
+    computer.
+    """
     state: ExecutionState = field(init=False)
     drive: ArmDrive = field(init=False)
     world: WorldModel = field(init=False)

@@ -60,8 +60,8 @@ class JointMeasurement:
 
 SLOW: Final = Pass(rate=0.01, seconds=0.4)
 QUICK: Final = Pass(rate=0.03, seconds=0.2)
-"""Settings of the quick pass. Our choice: the rate is about twenty steps of a 12-bit tachometer, and joints move at
-about this rate while the hand presses. The pass takes 3.3 s, and moves the hand by about 2 in.
+"""Settings of the quick pass. We chose the rate because it is about twenty steps of a 12-bit tachometer, and because
+joints move at about this rate while the hand presses. The pass takes 3.3 s, and moves the hand by about 2 in.
 """
 
 
@@ -107,7 +107,7 @@ def _check_weighed(arm: ArmModel, links: Array) -> None:
     if abs(links[doubted] - 1) > PLAUSIBLE:
         joint = arm.joints[doubted].name
         raise FrictionUnknown(
-            f"the links could not be weighed: according to the measurement, the link of the {joint} is "
+            f"the measured weights of the links are not plausible: the link of the {joint} seems "
             f"{links[doubted]:.2f} times as heavy as in its drawing, so a drive does not give its commanded torque"
         )
 

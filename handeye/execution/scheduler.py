@@ -58,8 +58,8 @@ class Agenda(MutableRecord, Generic[Time], kw_only=True):
 
     now: Time
     due: dict[str, tuple[Time, int]] = msgspec.field(default_factory=dict)
-    """For each task, two values: the time at which the task became due or began to wait, and the number of turns that
-    the task has since taken without a delay.
+    """For each task, two values: the time at which the task became due or began to wait, and how often the task has
+    continued at this time without a delay.
     """
     waits: dict[str, str] = msgspec.field(default_factory=dict)
     """The tasks that wait for a condition, each with the name of its condition."""

@@ -50,8 +50,8 @@ the other half moves the joint.
 """
 _FRESH = 0.25  # weight of the last servo period in the mean over the last few; chosen
 _AT_ONCE = 15
-"""Greatest number of servo periods that the servo loop skips at a time while the brakes are set. The panic button then
-acts up to .25 s late.
+"""Greatest number of servo periods that the servo loop skips at a time while the brakes are set. While the brakes are
+set, the panic button thus acts up to .25 s late.
 """
 LIGHT = 5.0
 """Greatest load in the hand (N) at which the servo loop judges the drag of the joints. If the hand lost a heavier
@@ -74,8 +74,8 @@ class Outcome:
     error: int | None = None  # an error of the motion itself (servo lag, watchdog)
     cause: Cause | None = None  # cause of that error, if there is more to say about it
     off: float = 0.0
-    """If the hand missed the last set-point: its distance (m) from the set-points in the middle of the motion.
-    Otherwise 0.
+    """How far (m) the hand was from its set-points, on average over the middle third of the motion. 0 if the hand
+    reached the last set-point.
     """
 
 

@@ -136,8 +136,8 @@ class DriveState(MutableRecord, kw_only=True):
     measured.
     """
     weights: Array | None = None
-    """Estimate of the errors of links and drives, made after `links` was measured, with the covariance of the
-    estimate, shape (3n, 1 + 3n); see `arm.torque_balance`. None if there is no estimate yet.
+    """Estimated errors of links and drives, and the covariance of this estimate; together, the shape is (3n, 1 + 3n).
+    See `arm.torque_balance`. The estimate is made after `links` was measured. None if there is no estimate yet.
     """
     tool: float = 0.0  # screwdriver speed, in rad/s
     current: float = 0.0  # its greatest torque since that speed was set, in N m

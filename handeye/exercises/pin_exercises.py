@@ -91,7 +91,8 @@ GENTLY: Final = ArmExercise(
         ),
         (
             "called the operator",
-            "FREE lets the chamfer guide the pin; without it, a slow pin may stay on the chamfer.",
+            "Use FREE, so that the chamfer can guide the pin. Without FREE, a pin that moves slowly may stay on "
+            "the chamfer.",
         ),
     ),
 )

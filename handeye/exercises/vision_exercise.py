@@ -30,8 +30,8 @@ SEE: Final = ArmExercise(
     hints=(
         (
             "reported success",
-            "Which picture shows the direction of the base? GENERAL finds only its outline; SPECIFIC finds its "
-            "holes. On which path does the program trust the plan?",
+            "Which picture shows the direction of the base? GENERAL finds only the outline of the base; SPECIFIC "
+            "finds its holes. On which path does the program rely on the plan instead of a picture?",
         ),
         (
             "called the operator",

@@ -47,8 +47,8 @@ class FindingList:
 OVERLAP: Final = 0.1 * INCH
 """Tolerated overlap of boxes (m).
 
-Free motions of the pump's program deviate from a straight descent by up to this distance. In the plan, for example,
-the returning screwdriver overlaps its rack by .02 in.
+Free motions of the pump's program deviate from a straight descent by up to this distance. Boxes may therefore overlap:
+in the plan, for example, the returning screwdriver overlaps its rack by .02 in.
 """
 
 SAME: Final = 1e-6  # m; depths that differ by less count as equal, so that every processor finds the same one

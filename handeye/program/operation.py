@@ -17,8 +17,8 @@ A target is a position or a part. `goal` is the goal of the last Move, and `trav
 Family = Literal["motion", "hand", "sight", "test", "search", "other"]
 Device = Literal["hand", "screwdriver", "camera"]
 Fields = Mapping[Kind, tuple[str, ...]]
-"""For each kind of values, the fields of an operation that hold names of such values. The tuple is empty for a kind
-that has only one value, because this value has no name.
+"""For each kind of value, the fields of an operation that hold the names of values of this kind. If there is only one
+value of the kind, this value has no name, and the tuple is empty.
 """
 
 

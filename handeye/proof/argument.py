@@ -26,7 +26,7 @@ def argument(proof: Proof, program: Program) -> Iterator[str]:
     unnoticed = [finding for finding in proof.findings if not finding.claims]
     if unnoticed:
         yield ""
-        yield "No program has to show that these findings hold:"
+        yield "A program need not show that these findings hold:"
         for rests, some in groupby(unnoticed, key=lambda finding: finding.rests):
             yield f"  {_listed([finding.finding for finding in some])}: {rests}"
     if any(finding.claims for finding in proof.findings):
@@ -35,9 +35,9 @@ def argument(proof: Proof, program: Program) -> Iterator[str]:
 
 
 _RESTS: Final = (
-    "The argument assumes that the senses work, that the limits are right, and that a shift by RESTORE or by a search "
-    "leads where it should. A call to the operator counts as a stop, and so does an error that no step tests. The "
-    "proof does not follow the answers of the operator."
+    "The argument assumes that the senses work, that the limits are right, and that RESTORE and the searches shift "
+    "a position by the right amount. A call to the operator counts as a stop, and so does an error that no step "
+    "tests. The proof does not follow the answers of the operator."
 )
 
 
@@ -131,7 +131,7 @@ def _avoided(
     text = (
         "the program can end here"
         if first.leaves is None
-        else "after this line, the path below no longer shows the claim"
+        else "after this line, the path below cannot reach a step that shows the claim"
     )
     since = max((index for index in (first.leaves, first.undone) if index is not None), default=0)
     marks = []

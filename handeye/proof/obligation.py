@@ -11,8 +11,8 @@ class Phase(Record, frozen=True, kw_only=True):
 
     by: tuple[Evidence, ...] = ()
     undone: tuple[Evidence, ...] = ()
-    """Kinds of steps after which the phase must be shown again, because these steps may change what the phase has
-    shown. The phase must be shown again even if such a step raises an error.
+    """Kinds of steps that may undo what has been shown. After such a step, the phase must be shown again, even if the
+    step raises an error.
     """
 
 
@@ -59,6 +59,6 @@ class Obligation(Record, frozen=True, kw_only=True):
     claims: tuple[Claim, ...] = ()
     rests: str  # sentence: on what the argument rests besides the claims, or how much may remain unnoticed
     unnoticed: float | None = None
-    """The largest value of the finding (in the finding's unit) at which a failure may remain unnoticed; None if no
-    number is stated for it.
+    """The largest value of the finding (in the finding's unit) at which a failure may remain unnoticed; None if this
+    value is not stated as a number.
     """

@@ -39,7 +39,7 @@ class ClaimProof(Record, frozen=True, kw_only=True):
     """
     way: tuple[WayStep, ...] = ()  # a shortest path to the end that avoids the claim
     leaves: int | None = None
-    """Index, in the path, of the last step at which the path could still have branched off to a step that shows the
+    """Index, in `way`, of the last step from which the program can still reach a step that shows the last phase of the
     claim. None if there is no such step.
     """
     undone: int | None = None

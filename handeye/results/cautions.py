@@ -28,8 +28,8 @@ def cautions(runner: Runner, *, judged: bool) -> Iterator[str]:
     referee = runner.setup.replaced.get("referee")
     if judged and referee is not None:
         yield (
-            f"the run began with a referee of the calling program, `{referee}`, whose code is not saved in the run; "
-            "now the referee of the task judges the run"
+            f"the run began with `{referee}`, a referee of the calling program; the run does not contain the code "
+            "of this referee, so the referee of the task now judges the run"
         )
 
 

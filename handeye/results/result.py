@@ -129,8 +129,8 @@ class CameraReport(Record, frozen=True, kw_only=True):
     sightings_rms_px: dict[str, float]
     """RMS residual of the calibration for each lens, in pixels."""
     residual_in: float | None
-    """RMS residual on the table, in inches; None if the camera was not calibrated, because the program takes no
-    picture.
+    """RMS residual of the calibration on the table, in inches. None if the program takes no picture, so that the
+    camera was not calibrated.
     """
 
     @property
@@ -172,7 +172,7 @@ class Result(Record, frozen=True, kw_only=True):
     limits: dict[str, float] | UnsetType = UNSET
     """Limits given in place of the referee's own. The keys are the names of the findings."""
     replaced: dict[str, str] | UnsetType = UNSET
-    """Parts replaced by the caller's Python code, with the name of that code."""
+    """The parts that the caller replaced with Python code. The keys are the parts; the values name the code."""
     without: tuple[str, ...] | UnsetType = UNSET
     """Senses that were switched off in the program."""
     apart: bool | UnsetType | None = UNSET
@@ -180,7 +180,7 @@ class Result(Record, frozen=True, kw_only=True):
     referee has not judged the run, or if only a part of the work was undone.
     """
     figures: dict[str, float] | UnsetType = UNSET
-    """Figures that the system of the run adds. The keys are their names."""
+    """Further figures of the run, which only its system measures. The keys are the names of the figures."""
     built: dict[str, Check] | UnsetType = UNSET
     """Findings on the finished work of a job that then undid its work. `referee` has the findings on the state after
     the undoing.

@@ -43,7 +43,7 @@ VIDEO: Final = "video.webp"
 TRIALS: Final = "trials.jsonl"
 """A file that only the folder of a batch of trials contains."""
 MARK: Final = "unnamed"
-"""A file that marks a folder that handeye named because the user did not; see `runs/unnamed_runs.py`."""
+"""A file that marks a folder whose name was chosen by handeye, not by the user; see `runs/unnamed_runs.py`."""
 
 
 def _outcomes() -> list[str]:

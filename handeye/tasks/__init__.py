@@ -23,8 +23,8 @@ from handeye.tasks.interface import AnyTask, Task
 DEFAULT: Final = "water_pump"  # the task used if none is named
 GROUP: Final = "handeye.tasks"  # entry points of this group name tasks of other packages
 ELSEWHERE: Final = "HANDEYE_TASKS"
-"""Environment variable with further tasks as MODULE:NAME, separated by spaces. `--task` adds its task to this
-variable, for child processes.
+"""Environment variable with further tasks as MODULE:NAME, separated by spaces. If `--task` gives MODULE:NAME, handeye
+adds it to this variable, so that child processes know the task.
 """
 _BUILT_IN: Final = {
     "water_pump": "handeye.tasks.water_pump.task:WATER_PUMP",

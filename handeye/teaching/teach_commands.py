@@ -233,7 +233,9 @@ TABLE: Final[tuple[Command[Callable[[Teacher, list[str]], Answer]], ...]] = (
     ),
     Command(usage="where", act=_look, help="show where the arm is"),
     Command(usage="list", act=_list, help="list what is taught"),
-    Command(usage="undo", act=_undo, help="undo the last motion, or the last naming of a position"),
+    Command(
+        usage="undo", act=_undo, help="undo the last motion, or the naming of a position if that came later"
+    ),
     Command(usage="save", act=_save, help="write the new names to the file; the rest of the file is kept"),
     Command(usage="help", act=_help, help="show this"),
 )

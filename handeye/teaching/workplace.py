@@ -31,7 +31,9 @@ from handeye.teaching.functions import TYPED, planned
 MAX_STATES: Final = 100  # states that are stored for going back
 _NOTHING: Final = "WHERE"
 _PICTURE: Final = "LOOK SETUP"
-"""Placeholder programs. A workplace holds one of them until the user gives a program, and never executes it."""
+"""Placeholder programs. A workplace holds one of these two until the user gives a program. Placeholders are never
+executed.
+"""
 _FORGOTTEN: Final = (
     "at", "pending", "stage", "stopped", "onward", "idle", "clock", "shots", "general", "found",
     "done", "undoing",

@@ -15,10 +15,10 @@ from handeye.touch.senses import least_gap
 
 OVERDRIVE: Final = 0.005  # m; fingers driven this far beyond their opening count as stalled; placeholder
 SLOWER: Final = 0.5
-"""When one finger begins to touch, both fingers go on closing at this fraction of their speed. While the finger keeps
-touching, the speed falls to 0. At this fraction, the fingers still press hard enough on an object between them to
-close both switches. If the fingers closed more slowly, a finger that touches would come off the object at once, and
-would push a loose object a little each time it touched again.
+"""When one finger begins to touch an object, both fingers slow down to this fraction of their speed. While the finger
+keeps touching the object, the speed falls to 0. With this fraction, the fingers still press hard enough on an object
+between them to close both switches. With a smaller fraction, the finger would come off the object at once, and would
+push a loose object a little each time it touched again.
 """
 EASING: Final = 0.0015
 """If a finger touches an object, the hand moves towards this finger until the finger no longer touches. This is the

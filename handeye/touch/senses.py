@@ -23,14 +23,15 @@ the goal. The value is a placeholder.
 GAP_NOISE: Final = 0.02 * INCH  # m; twenty times the sensor noise
 SHIFT_NOISE: Final = 0.006 * INCH
 """Greatest change (m) of the gap reading between two servo periods while the fingers stand still. The value allows for
-rounding and for noise. The converter rounds to steps of .001 in. Five standard deviations of the noise are added
-(.0006 in per reading at the high level).
+the converter, which rounds to steps of .001 in, and for five standard deviations of the noise. At the high level, the
+standard deviation is .0006 in per reading.
 """
 FREE_FORCE: Final = 45 * OUNCE_FORCE
 """Greatest force that the arm may sense in free air: 12.5 N. With more force, the program calls the operator. The
 errors of link masses, mass centres, drive gains and joint friction look like a force on the hand, upwards or
 downwards. We calculated this apparent force for 15 places on the table: it is at most 6.1 N in 400 nominal worlds, and
-at most 8.9 N in worlds of the high level. At the high level, the weight of the base beyond its declared load adds 2 N.
+at most 8.9 N in worlds of the high level. In these worlds, the base may also weigh 2 N more than the load that the
+program declares.
 """
 SWITCH_FORCE: Final = 10 * OUNCE_FORCE
 """Force (N) with which the fingers press after centring. It closes both switches.
@@ -45,7 +46,7 @@ GAP_OFFSET: Final = (
 )  # m by which the gap may be off; like GAP_SCALE, three times the doubled stated error
 GAP_SCALE: Final = 0.03  # as a fraction of the gap
 STARTING_TORQUE: Final = 0.05
-"""Torque (N m) of a starting motor until the spindle has reached its speed: 7 ounce-inches."""
+"""Torque (N m) of the screwdriver's motor from its start until the spindle has reached its speed: 7 ounce-inches."""
 STALLED_TORQUE: Final = 0.37
 """Greatest torque of the motor (N m): the torque of the slipping clutch, plus the torque that turns the spindle."""
 STARTING_PERIODS: Final = 4
@@ -70,7 +71,7 @@ motor fast.
 
 If the program requests 42 ounce-inches, this limit is .09 N m. A turning screw takes .02 N m. A bit that slips on a
 head while the hand presses with 22 ounces takes at most .025 N m, even if this whole force causes friction at the edge
-of the head. Five times the noise of the current adds .04 N m.
+of the head. Even with five times the noise of the current (.04 N m), these torques stay below the limit.
 """
 CURRENT_NOISE: Final = 0.008  # N m, of a reading: twice the stated noise of the current
 
@@ -124,27 +125,27 @@ def stood_still(change: float, driven: float) -> bool:
 
 
 EMPTY_GAP: Final = 0.05 * INCH
-"""Greatest reading (m) of the gap when the fingers are closed and empty. The potentiometer is off by up to .02 in; at
-the high level, it is off by up to .04 in.
+"""Greatest reading (m) of the gap when the fingers are closed and empty. The potentiometer is off by up to .02 in; in
+worlds of the high level, by up to .04 in.
 """
 SAME_HOLD: Final = 5e-4  # m; greatest change of the gap in an unchanged hold
 SKEW: Final = 1e-3
 """Permitted change (m) of the gap on an object that has turned between the fingers. If the contact is an inch long, a
 turn of 2 degrees changes the gap by .9 mm.
 
-An object that is grasped again lies straighter, and CENTER holds it only lightly. An object that was pushed against
-blocks lies more askew. We measured these changes. On pins, the gap closed by .5 mm. On the base of the pump, in the
-worlds of seeds 1 to 6, the gap closed by up to .8 mm or widened by up to .44 mm. In the world of seed 1001, it widened
-by more than .5 mm.
+CENTER holds an object only lightly. An object that is grasped again lies straighter than before, and an object that
+was pushed against blocks lies more askew. We measured how this changes the gap. On pins, the gap closed by .5 mm. On
+the base of the pump, in the worlds of seeds 1 to 6, the gap closed by up to .8 mm or widened by up to .44 mm. In the
+world of seed 1001, it widened by more than .5 mm.
 """
 OFF_MIDDLE: Final = 3e-3
-"""Permitted distance (m), along the line of the fingers, between an object and the middle of the fingers when they
-close on the object again.
+"""Permitted distance (m), along the line of the fingers, between an object and the middle of the fingers. The limit
+applies when the fingers close on an object that they have held before.
 
-An object that was carried and set down may have slid between the fingers by SKEW, and turned by 2 degrees. If the
-fingers then grasp the object 57 mm from the place where they held it, as on the walls of the pump base, the turn
-displaces the grasped place by 2 mm. In eight pumps, the measured displacement was at most 1.8 mm on these walls, and
-1.0 mm elsewhere (from play in a hole or rack, and compliance of the arm while it held the object).
+An object that was carried and set down may have slid between the fingers by SKEW, and turned by 2 degrees. The fingers
+may then grasp the object 57 mm from their earlier hold, as on the walls of the pump base. At this distance, the turn
+displaces the object by 2 mm. In eight pumps, the measured displacement was at most 1.8 mm on these walls, and 1.0 mm
+elsewhere (from play in a hole or rack, and compliance of the arm while it held the object).
 """
 
 

@@ -36,8 +36,8 @@ class Forces(Brief):
     `torque`, `touch`; empty if there is no guard.
     """
     axis: Array
-    """Unit vector along which, or about which, the guard watches, shape (n, 3); NaN if the guard watches no force or
-    moment.
+    """Unit vector along the watched force, or along the axis of the watched moment, shape (n, 3); NaN if the guard
+    watches no force or moment.
     """
     value: Array
     """Reading of the guard, shape (n,): force along the axis (N), moment about the axis (N m), torque of the

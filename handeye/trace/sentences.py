@@ -114,7 +114,7 @@ def sentence(event: Event, measures: Measures = INCHES) -> str:
         case happened.StageFinished():
             return f"stage “{event.stage}” {event.status}"
         case happened.UndoStarted():
-            rounds = f", and {counted(event.steps - 1, 'step')} of its loop" if event.steps > 1 else ""
+            rounds = f", and {counted(event.steps - 1, 'step')} of the same loop" if event.steps > 1 else ""
             return f"undo: {event.text.strip()}{rounds}"
         case happened.StepStarted():
             return event.text

@@ -185,7 +185,8 @@ def _places(happening: Iterable[_RunPosition]) -> tuple[Column, ...]:
         Column(name="step", about=f"number of the current step; {NO_STEP} if there is none", values=steps),
         Column(
             name="file",
-            about="required file that contains the step; empty if the step is in the script itself",
+            about="file that the script requires and that contains the step; empty if the script itself contains "
+            "the step",
             values=files,
         ),
         Column(name="line", about=f"line of the step in its file; {NO_STEP} if there is none", values=lines),

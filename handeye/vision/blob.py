@@ -153,8 +153,8 @@ class _Side:
         """`side` is an index into a box: it selects the number that gives the place of this side."""
         self.number, self.upright, self.backwards = side, side % 2 == 0, side < 2
         self._clear: tuple[int, int, int] | None = None
-        """The last search that found only background: the line from which it looked outwards, and the first and last
-        place of the search on this line.
+        """Where the side lay when `moves` last looked beyond it: the line of the side, and the first and last place of
+        the box on this line. `moves` does not look again from the same place.
         """
         self._image, self._read = self._turned(scan.image), self._turned(scan.read)
         across, along, offset = scan.sides.T

@@ -46,20 +46,20 @@ BESIDE: Final = 0.3 * INCH  # distance (m) from a hole's border to where the dif
 BEFORE_STEP: Final = 0.38
 BRIGHT: Final = 0.65
 """BEFORE_STEP and BRIGHT apply to the picture that was taken before the gasket was laid. In that picture, a step of
-intensity is a border if it exceeds BEFORE_STEP times the contrast. A point belongs to the face if its intensity
-exceeds BRIGHT times the intensity of the face.
+intensity is a border if it exceeds BEFORE_STEP times the contrast. The intensity of the face is measured on a ring
+around each hole; a point that is brighter than BRIGHT times this intensity belongs to the face.
 """
 ROUNDS: Final = 2  # searches for the base's largest hole, each starting from the previous one
 RAYS: Final = 32
 WINDOW: Final = 9
-"""Number of neighbouring rays over which the median is taken. They span a quarter of the rim, and this quarter is
-wider than the part that an aligning pin hides.
+"""The median is taken over this number of neighbouring rays. These rays span a quarter of the rim. An aligning pin
+hides less than a quarter.
 """
 CLEAR: Final = 0.06 * INCH
 """A border point of the base counts only if it lies within this distance (m) of the apparent circle of the hole.
 
-The apparent size of the hole depends on the scale of the camera, which may be off by 5 % (in the world of seed 54010
-at the high level).
+The apparent size of the hole depends on the scale of the camera, which may be off: in the world of seed 54010 at the
+high level, it is off by 5 %.
 """
 
 

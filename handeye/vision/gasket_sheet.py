@@ -21,8 +21,9 @@ from handeye.vision.camera_model import View
 MAX_BARE: Final = 40e-6
 """Greatest permitted bare area (m2) in a square with the side WINDOW (m).
 
-In 139 sound worlds, the greatest area was 21 mm2. The mean plus five standard deviations was 34 mm2 in 60 worlds of
-the nominal level, and 30 mm2 in 79 worlds of the high level. The edges of pins cause most of the area.
+In 139 worlds without faults, the greatest measured area was 21 mm2. The mean plus five standard deviations was 34 mm2
+in 60 worlds of the nominal level, and 30 mm2 in 79 worlds of the high level. Most of the measured area is due to the
+edges of pins.
 """
 WINDOW: Final = 0.6 * INCH
 WALL: Final = 0.4 * INCH  # width (m) of the examined sheet around a large hole; drawn: at least .575 in

@@ -62,7 +62,8 @@ raises the contrast.
 BESIDE: Final = 12
 """Width (points) of a strip around the part. The strip counts neither as part nor as surroundings.
 
-The aim of the mount differs slightly from the readings of its potentiometers, and the part casts a shadow.
+The strip contains the part's shadow. It also allows for an outline that is slightly displaced, because the
+potentiometers of the mount do not give the exact aim.
 """
 
 

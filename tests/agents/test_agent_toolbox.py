@@ -65,7 +65,7 @@ def test_other_languages_are_checked_and_not_run(agent: Agent) -> None:
 
 def test_a_call_to_the_operator_can_be_answered(agent: Agent) -> None:
     called = agent("run", script=EMPTY_HAND, **PIN)
-    assert called.text.endswith("`run` continues it with an `answer`: retry, proceed or skip")
+    assert called.text.endswith("`run` continues this run if you give an `answer`: retry, proceed or skip")
     assert agent("result").text.startswith("run run-1: stopped; the program stopped and called the operator")
     ended = agent("run", answer="proceed")
     assert ended.data is not None

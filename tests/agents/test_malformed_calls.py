@@ -71,7 +71,7 @@ def test_each_of_200_malformed_calls_gets_one_sentence_and_begins_nothing(toolbo
         ("run", {"script": "insertion", "answer": "retry"}, "`answer` is for a run that has called the operator; a new "
          "run has not"),
         ("run", {"script": "insertion", "set": {"nix": 1}}, "the world has no quantity `nix`; choose from"),
-        ("run", {"script": "palletise.trig"}, "there is no script `palletise.trig` in the folder"),
+        ("run", {"script": "palletise.trig"}, "there is no script `palletise.trig`, neither in the folder"),
         ("state", {"run": "run-9"}, "there is no run run-9; the runs are none"),
         ("plan", {"script": "insertion", "stage": 3}, "there is no stage 3; the plan has 2 stages"),
         ("world", {"task": "nix"}, "there is no task `nix`"),

@@ -90,7 +90,7 @@ def test_a_label_inside_a_macro_is_shown_to_who_jumps_to_it() -> None:
     assert [(label.span.start, label.text) for label in told.secondary] == [
         (9, "the label is inside a macro")
     ]
-    assert "ends with the first blank line" in (told.help or "")
+    assert "end the macro with a blank line" in (told.help or "")
 
 
 @pytest.mark.parametrize("tool", ["", "TOOL 0\n"])

@@ -96,7 +96,7 @@ def test_an_event_happens_before_the_first_step_at_its_time_and_belongs_to_the_s
     bench.call_at(round(bench.now * 1e6) + 5001, "bell")
     kept = bench.cell().capture()
     del bench.handlers["bell"]
-    with pytest.raises(BadFile, match="the saved state waits for events that this bench does not know"):
+    with pytest.raises(BadFile, match="the saved state contains events that this bench does not have"):
         bench.cell().restore(kept)
 
 

@@ -159,7 +159,9 @@ def test_physics_that_broke_down_stay_so_until_the_cell_is_put_back(cell: Simula
 def test_a_state_whose_watchdog_would_wait_too_long_is_refused(cell: SimulatedCell) -> None:
     state = cell.capture()
     state.mechanisms[cell.arm.name]["unanswered"] = -60.0
-    with pytest.raises(InvalidInput, match=r"^this is not a state of this work cell: the saved watchdog "):
+    with pytest.raises(
+        InvalidInput, match=r"^this is not a state of this work cell: the saved time since the last command "
+    ):
         cell.restore(state)
 
 

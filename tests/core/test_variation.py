@@ -242,10 +242,12 @@ def test_a_factor_that_errors_cannot_have_is_refused(factor: float) -> None:
 
 @pytest.mark.parametrize("name", ["belt", "step", "start"])
 def test_what_is_no_error_cannot_be_scaled(name: str) -> None:
-    with pytest.raises(InvalidInput, match=f"^a scale cannot apply: the world has no error in `{name}`$"):
+    with pytest.raises(
+        InvalidInput, match=f"^there is nothing to scale: the world has no error in `{name}`$"
+    ):
         scaled(1, **{name: 2.0})
 
 
 def test_where_all_sizes_have_sources_none_can_be_scaled_for_having_none() -> None:
-    with pytest.raises(InvalidInput, match=r"^a scale cannot apply: the world has no unsourced error$"):
+    with pytest.raises(InvalidInput, match=r"^there is nothing to scale: the world has no unsourced error$"):
         TABLE.draw(WorldSpec(seed=1, overrides=Overrides(scale={UNSOURCED: 2.0})))

@@ -18,7 +18,7 @@ from handeye.tasks.water_pump.scene import specification
 from handeye.tasks.water_pump.world.pump_world import PumpWorld
 
 SOUND = 8000883
-"""A world of the level high. Compared with the height of the table at a place to which it reaches 1.8 in farther, the
+"""A world of the high level. Compared with the height of the table at a place to which it reaches 1.8 in farther, the
 arm misreads the height of the face at one hole by .033 in.
 """
 CARD = 1.2e-3

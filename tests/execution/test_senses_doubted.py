@@ -192,8 +192,7 @@ def test_a_gap_that_is_not_that_of_what_is_held_is_told(factor: float, wrong: bo
     assert run.go().errors == [errors.GAP_WRONG] * wrong
     if wrong:
         assert run.told.endswith(
-            f"in, but between the fingers is PIN, which is 1.00 in thick; the reading is {factor:.2f} times the "
-            "thickness)"
+            f"in, but the fingers hold PIN, which is 1.00 in thick; the reading is {factor:.2f} times the thickness)"
         )
 
 
@@ -278,7 +277,7 @@ def test_what_may_bear_the_hand_when_a_motion_begins_is_not_taken_for_its_weight
 def test_from_the_air_it_is_taken_for_a_weight_that_has_changed(before: str) -> None:
     run = bearing(f"{before}\nMOVE T")
     assert run.errors[-1] == errors.FORCE_WRONG
-    assert "the drives feel other weights of the links than before" in run.told
+    assert "to the drives, the weights of the links seem to have changed" in run.told
 
 
 @pytest.mark.slow

@@ -84,12 +84,14 @@ WORDS: list[tuple[c.Cause, str]] = [
     (
         s.RateScatters(joint=ARM.joints[1], scatter=1.7 * DEGREE, limit=0.6 * DEGREE),
         "the tachometer reading of the wrist scatters by 1.7 degrees/s while the arm holds still; allowed: 0.6 "
-        "degrees/s; either the tachometer fails, or the joint's drive or something outside shakes the arm",
+        "degrees/s; the cause is a failing tachometer, an unsteady drive of the joint, or something outside that "
+        "shakes the arm",
     ),
     (
         s.RateScatters(joint=ARM.joints[0], scatter=1.0 * INCH, limit=0.25 * INCH),
         "the tachometer reading of the rail scatters by 1.00 in/s while the arm holds still; allowed: 0.25 in/s; "
-        "either the tachometer fails, or the joint's drive or something outside shakes the arm",
+        "the cause is a failing tachometer, an unsteady drive of the joint, or something outside that shakes the "
+        "arm",
     ),
     (
         s.SwitchesCrossed(fingers=(True, False), moved=0.06 * INCH),
@@ -130,8 +132,8 @@ WORDS: list[tuple[c.Cause, str]] = [
     ),
     (
         s.GapUnlike(gap=1.15 * INCH, thickness=1.0 * INCH, held="PIN"),
-        "the gap reads 1.15 in, but between the fingers is PIN, which is 1.00 in thick; the reading is 1.15 times "
-        "the thickness",
+        "the gap reads 1.15 in, but the fingers hold PIN, which is 1.00 in thick; the reading is 1.15 times the "
+        "thickness",
     ),
     (
         s.CurrentUnlike(torque=3.5 * OUNCE_INCH, known=7 * OUNCE_INCH),
@@ -139,12 +141,12 @@ WORDS: list[tuple[c.Cause, str]] = [
     ),
     (
         s.DrivesUnlike(joints=(ARM.joints[1],), factors=(1.3,)),
-        "the drives feel other weights of the links than before: either a drive gives more or less torque than "
-        "commanded (the drive of the wrist gives 1.30 times as much), or the arm no longer stands upright",
+        "to the drives, the weights of the links seem to have changed: either a drive gives more or less torque "
+        "than commanded (the drive of the wrist gives 1.30 times as much), or the arm no longer stands upright",
     ),
     (
         s.MotorSlow(share=0.4),
-        "the motor stopped speeding up after only 0.4 of the usual time, so it turns too slowly",
+        "the motor stopped speeding up after only 0.4 times the usual time, so it turns too slowly",
     ),
     (
         s.GapAstray(gap=0.5 * INCH, goal=1.8 * INCH),
@@ -242,11 +244,11 @@ WORDS: list[tuple[c.Cause, str]] = [
     ),
     (
         c.HoldOff(gap=0.0, kept=0.0075, holding=True),
-        "the gap is 0.00 in; when the step was executed, the fingers held an object at 0.30 in",
+        "the gap is 0.00 in; when the step was executed, the gap was 0.30 in, with an object between the fingers",
     ),
     (
         c.HoldOff(gap=0.0, kept=0.0254, holding=False),
-        "the gap is 0.00 in; when the step was executed, the fingers stood at 1.00 in",
+        "the gap is 0.00 in; when the step was executed, the gap was 1.00 in",
     ),
     (
         c.MetEarly(fingers=(True, False), gap=1.8 * INCH, kept=1.4 * INCH, holding=True),

@@ -54,7 +54,9 @@ def test_the_pumps_program_shows_every_finding_that_is_asked_of_it(careful: tupl
     assert len(verdicts(proof, "shown")) == 30
     assert unproved(proof, found) == []
     text = "\n".join(argument(proof, found))
-    assert "\nrotor_place: the fingers feel the end of the crank pin 2.86 inches over the face" in text
+    assert (
+        "\nrotor_place: the fingers feel that the end of the crank pin is 2.86 inches over the face" in text
+    )
     assert "Every path passes line" in text
 
 

@@ -39,10 +39,10 @@ class IKResult:
 
 SLACK: Final = 1e-9  # round-off allowed beyond a joint limit, in rad or m
 WRITTEN: Final = (0.0025 * INCH, 0.0125 * DEGREE)
-"""Greatest distance (m) and turn (rad) by which a pose may be off because the pose is written with few digits.
-Distance and turn are combined as the root of the sum of squares. If each coordinate is off by .0005 inch or .005
-degrees, the combination is at most .96 of the limit. The wrist is 10 in behind the finger tips. The greatest turn
-moves the wrist by less than the greatest distance.
+"""Greatest distance (m) and turn (rad) by which a pose may be off because the pose is written with few digits. An
+error is the root of the sum of the squares of distance and turn, each divided by its greatest value. The error may be
+at most 1. It is at most .96 if each coordinate is off by .0005 inch or .005 degrees. The wrist is 10 in behind the
+finger tips, so the greatest turn moves the wrist by less than the greatest distance.
 """
 
 

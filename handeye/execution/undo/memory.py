@@ -22,8 +22,8 @@ REMEMBERED: Final = (
 )  # fmt: skip
 Memory = dict[str, Any]  # from the name of a field of the state to its value
 _UNCHECKED: Final[Memory] = {"done": [], "undoing": None, "unwound": {}, "shots": {}, "found": {}}
-"""Fields that steps do not store. These fields are large and known to be valid, so they are replaced by empty ones
-before the memory of a step is checked.
+"""Large fields of the state that no step stores. They are known to be valid, so the check of a step's memory sees
+empty values in their place.
 """
 _TYPES: Final[dict[str, Any]] = get_type_hints(ExecutionState)
 

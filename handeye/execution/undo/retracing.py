@@ -28,8 +28,9 @@ from handeye.touch.guards import ActiveGuard, Reading, Trip
 from handeye.touch.senses import too_early
 
 ALLOWED: Final = 20.0
-"""Smallest value (N) of the force at which a reversal stops. When the arm lifted a top off the pins, the sensed force
-was at most 11 N. When the screws were still fastened, this force was 36 N in one step, and 108 N in the next.
+"""A reversal never stops at a force (N) below this value. When the arm lifted a top off the pins, the sensed force was
+at most 11 N. When the screws of the top were still fastened, the sensed force was 36 N in one step, and 108 N in the
+next.
 """
 SHARE: Final = 1.5  # multiple of the force that the step itself met
 
@@ -78,13 +79,13 @@ class EarlyContact:
 
 
 RAMP: Final = 8
-"""Number of servo periods in which the arm speeds up at the start of the reverse path, and in which it slows down at
-the end. Our choice. A recorded path may lack such a ramp: if a force ended the recorded motion, this motion did not
-slow down first.
+"""Length of a ramp, in servo periods. The arm speeds up in one ramp at the start of the reverse path, and slows down
+in another at the end. Our choice. A recorded path may lack such a ramp: if a force ended the recorded motion, this
+motion did not slow down first.
 """
 JOIN: Final = 5e-4
 """Speed (rad or m per servo period) at which the joints move from the present position to the end of the recorded
-path, before they retrace this path. After brakes or a guard have stopped it, the arm can be beside the path.
+path, before they retrace this path. The arm can be beside the path if the brakes or a guard stopped the arm.
 """
 
 

@@ -44,12 +44,12 @@ from handeye.touch.guards import FirstOf, Monitor
 from handeye.touch.senses import EMPTY_GAP, SAME_HOLD, SKEW, as_before, at_least
 
 SUPPORT_SHARE: Final = 0.5
-"""Force on the hand that shows that a returned screw stands in its place, as a fraction of the force with which the
-hand took the screw.
+"""Before the hand lets go of a returned screw, the hand presses the screw down to check that the screw stands in its
+place. This constant is the force of the press, as a fraction of the force with which the hand took the screw.
 """
 STRAIGHTER: Final = 2 * 1.1e-3
-"""Distance (m) by which the gap may change because a carried object turns until it lies flat against the fingers. Our
-choice: twice the largest measured value.
+"""Greatest change (m) of the gap when a carried object turns until it lies flat against the fingers. Our choice: twice
+the largest measured value.
 """
 SAME_JOINTS: Final = 1e-4  # rad or m within which an arm is at a loop's entry
 

@@ -132,8 +132,8 @@ def _undo_stopped(cause: c.UndoCause) -> str:
             return f"something resists as the step is undone: the hand feels {felt} oz; allowed: {limit} oz"
         case c.HoldOff():
             gap, kept = inches_apart(cause.gap, cause.kept)
-            held = "held an object at" if cause.holding else "stood at"
-            return f"the gap is {gap} in; when the step was executed, the fingers {held} {kept} in"
+            held = ", with an object between the fingers" if cause.holding else ""
+            return f"the gap is {gap} in; when the step was executed, the gap was {kept} in{held}"
         case c.MetEarly():
             return _met_early(cause)
         case c.ScrewFast():

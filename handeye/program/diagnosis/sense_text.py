@@ -41,15 +41,17 @@ def doubt_sentence(cause: s.SenseCause) -> str:
                 if cause.thickness
                 else ""
             )
-            return f"the gap reads {gap} in, but between the fingers is {cause.held}, which is {thick} in thick{times}"
+            return (
+                f"the gap reads {gap} in, but the fingers hold {cause.held}, which is {thick} in thick{times}"
+            )
         case s.DrivesUnlike():
             named = zip(cause.joints, cause.factors, strict=False)
             gives = " and ".join(
                 f"the drive of the {joint.name} gives {factor:.2f} times as much" for joint, factor in named
             )
             return (
-                "the drives feel other weights of the links than before: either a drive gives more or less torque "
-                f"than commanded ({gives}), or the arm no longer stands upright"
+                "to the drives, the weights of the links seem to have changed: either a drive gives more or less "
+                f"torque than commanded ({gives}), or the arm no longer stands upright"
             )
         case s.CurrentUnlike():
             told, known = (torque / OUNCE_INCH for torque in (cause.torque, cause.known))
@@ -63,7 +65,7 @@ def doubt_sentence(cause: s.SenseCause) -> str:
             return f"{short}: the current sensor reads no higher, or the motor is weak"
         case s.MotorSlow():
             return (
-                f"the motor stopped speeding up after only {cause.share:.1f} of the usual time, "
+                f"the motor stopped speeding up after only {cause.share:.1f} times the usual time, "
                 "so it turns too slowly"
             )
         case s.MotorFast():
@@ -95,8 +97,8 @@ def doubt_sentence(cause: s.SenseCause) -> str:
             scatter, limit = (_rate(cause.joint, rate) for rate in (cause.scatter, cause.limit))
             return (
                 f"the tachometer reading of the {cause.joint.name} scatters by {scatter} while the arm holds still; "
-                f"allowed: {limit}; either the tachometer fails, or the joint's drive or something outside shakes "
-                "the arm"
+                f"allowed: {limit}; the cause is a failing tachometer, an unsteady drive of the joint, or something "
+                "outside that shakes the arm"
             )
         case s.JointAlone():
             return _alone(cause)

@@ -66,8 +66,8 @@ def misfits(plan: RelayPlan) -> Iterator[LegFinding]:
         if leg.system.takes_pictures(leg.plan) and not eye:
             yield found(
                 1,
-                "the program takes pictures, but the camera is calibrated only if the program of the first leg takes "
-                "pictures, too",
+                "the program takes pictures, but the camera is not calibrated, because the program of the first "
+                "leg takes no pictures",
             )
         found_here = leg.system.writes(leg.plan, leg.stage)
         known |= {(use.name, use.kind) for use in found_here}

@@ -34,9 +34,8 @@ class RelaySystem(System):
     plan = RelayPlan
     words = StepperWords(
         about=(
-            "A step of a relay is a step of the program that controls the arm. Each leg is a stage; between two "
-            "legs the brakes are",
-            "set, and a record is handed over.",
+            "A step of a relay is a step of the present leg's program. Each leg is a stage.",
+            "Between two legs, the brakes are set, and a record is handed over.",
         ),
         units="those of each program",
     )

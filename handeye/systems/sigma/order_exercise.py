@@ -36,7 +36,7 @@ class OrderExercise(Exercise):
         return (
             f"Each task must still have every {', '.join(_WORK[:-1])} and {_WORK[-1]} that it has at the start, in "
             "the same order.",
-            "Each line is executed in at least one order, and the program ends.",
+            "The program must end, and each line must be executed in at least one order of the tasks.",
         )
 
     def diagnostics(self, given: Submission) -> list[Diagnostic]:
@@ -91,7 +91,8 @@ SHARE: Final = OrderExercise(
         (KINDS["flag"], "Let the feeder wait until its last signal has been taken."),
         (
             KINDS["deadlock"],
-            "Which task sets the flag that this task waits for? And which task is the first to set this flag?",
+            "Which task sets the flag that this task waits for? Which task must set the flag for the first time, "
+            "before any task takes it?",
         ),
     ),
 )

@@ -31,7 +31,9 @@ SUPERSIGMAs, of the feeder (names that end in 5) and of the belt (names that end
 """
 AXES: Final = ("X1", "Y1", "Z1", "X2", "Y2", "Z2")
 LINE_AXES: Final = (*AXES, "X3", "Y3", "Z3", "X4", "Y4", "Z4", "X5", "Y5", "X6")
-"""The axes of the assembly line. The axes of the arms come first; only arms have wrists."""
+"""The axes of the assembly line: first the axes of the four arms, then the axes of the feeder (X5, Y5) and of the belt
+(X6), which have no wrists.
+"""
 COMPONENTS: Final = ("X", "Y", "Z")  # components of a wrist, as byte 3 numbers them
 DEVICES: Final = {
     "HAND": 0,

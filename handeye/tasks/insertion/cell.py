@@ -31,11 +31,11 @@ HOLDER: Final = (15 * INCH, 35 * INCH)
 FACE: Final = base_top()  # height of the face around the hole, m
 CORNERS: Final = 48  # corners of a section of the nose; between two corners, the nose is .005 mm slimmer
 WEDGES: Final = 24
-"""Number of wedges around the hole. Between two wedges, the hole is .02 mm wider, but the nose of the pin is round, so
-the play of the pin grows only from .057 mm to at most .063 mm.
+"""Number of wedges around the hole. Between two wedges, the hole is .02 mm wider. Because the nose of the pin is
+round, the play of the pin grows by less: from .057 mm to at most .063 mm.
 """
 PUSH: Final = "push"
-"""Name of the sensor for the resultant force of all contacts between plate and pin (N), in W; no device reads
+"""Name of the sensor for the resultant force (N, in frame W) of all contacts between plate and pin. No device reads
 the sensor.
 """
 _NET_FORCE: Final = [1 << int(mujoco.mjtConDataField.mjCONDATA_FORCE), 3, 1]
@@ -43,7 +43,7 @@ _NET_FORCE: Final = [1 << int(mujoco.mjtConDataField.mjCONDATA_FORCE), 3, 1]
 _ON_THE_FLOOR: Final = np.array([0.5, -0.5, -0.7])  # m: place of a pin that is not in the holder
 _RIM: Final = 0.070  # radius of the face around the hole, m
 _METAL: Final = ("solid", "tap", "bore", "base_land", "shoulder", "nose")
-"""MuJoCo's default classes for the shapes whose friction varies between worlds."""
+"""Default classes of the MuJoCo model for the shapes whose friction varies between worlds."""
 
 
 def build(world: InsertionWorld) -> mujoco.MjModel:

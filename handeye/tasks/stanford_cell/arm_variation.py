@@ -101,8 +101,8 @@ def arm() -> Iterator[Quantity]:
             "1974."),
         group("arm.tachometer_noise", numbered(Noise, 2e-5, 2e-5, 1e-5, 2e-5, 2e-5, 2e-5), _RATES,
             "Noise of the tachometers, before the converter.",
-            unsourced="no data sheet of the arm's tachometers is known. Bound: a step of the converter. One step is "
-            "37 to 146 times this noise, so the converter does not show the noise."),
+            unsourced="no data sheet of the arm's tachometers is known. Bound: a step of the converter, which is 37 "
+            "to 146 times this noise, so the converter does not show the noise."),
         group("arm.tachometer_step", numbered(Step, *rate_step(STANFORD).tolist()), _RATES,
             f"One step of the converter of a tachometer: {SENSE_BITS} bits over the range of the joint's speeds in "
             "both directions. Data sheet of 1974; we infer that the range ends at the joint's greatest speed."),
@@ -145,7 +145,7 @@ def _friction() -> Iterator[Quantity]:
     """
     means = STANFORD.compliance.friction
     what = (
-        "Coulomb friction of the joints, which varies by up to a quarter of its mean. Without this error, a joint "
+        "Coulomb friction of the joints. It differs from its mean by up to a quarter. Without this error, a joint "
         "has its mean friction. If the friction is set to 0, the joint has none."
     )
     first, *others = numbered(Uniform, *(mean / 4 for mean in means)).items()
@@ -158,10 +158,10 @@ def _friction() -> Iterator[Quantity]:
     yield from group(
         "arm.friction", dict(others), _TORQUES[1:],
         f"{what} Inferred from the paper, in which a released arm stays in place. The friction of joints 2 and 3 "
-        "must therefore withstand the sum of two loads. One is half a converter step of their torques. The other "
-        "is the weight that the arm does not compensate after it has weighed its links: .25 N m and .7 N at the "
-        "parked posture, in the worst of 200 worlds. The friction of the wrist joints must withstand half a "
-        "converter step of their torques.",
+        "must therefore withstand the sum of two loads. One is half a step of the joint's torque converter. The "
+        "other is the part of the weight for which the arm does not compensate, even after it has weighed its "
+        "links: .25 N m at joint 2 and .7 N at joint 3 in the parked posture, in the worst of 200 worlds. The "
+        "friction of a wrist joint need withstand only half a step of the joint's torque converter.",
         nominal=means[1:], least=0.0,
     )  # fmt: skip
 
@@ -172,13 +172,13 @@ def hand() -> Iterator[Quantity]:
             unsourced="the offset is due to the wear of the finger pads since the gap was last set, and this wear "
             f"was never measured. {DOUBLED}"),
         group("hand", {"gap_scale": Normal(0.5)}, "%",
-            "Scale error of the gap reading. The size of the error is between the linearity of wire-wound "
-            "potentiometers, .15 to .25 %, and the linearity of conductive plastic, 1 to 2 %: data sheets of "
-            "Bourns 3400 to 3590 and 6537 to 6639."),
+            "Scale error of the gap reading. Wire-wound potentiometers have a linearity of .15 to .25 %, and "
+            "conductive plastic ones of 1 to 2 % (data sheets of Bourns 3400 to 3590 and 6537 to 6639). The size "
+            "of the error is between the two."),
         group("hand", {"gap_noise": Noise(0.0003)}, "in",
             "Noise of the gap reading, before the converter.",
             unsourced="the noise is a third of a step of the converter, so the converter hardly shows it. Bound: "
-                "the output smoothness of the Bourns 6639, .1 % of the travel, which is four steps of the converter."),
+                "four steps of the converter, because the output smoothness of the Bourns 6639 is .1 % of the travel."),
         group("hand", {"gap_step": Step(STANFORD.hand.gap_max / UNITS["in"].size / 2**SENSE_BITS)}, "in",
             f"One step of the converter of the gap: {SENSE_BITS} bits over the full opening. Data sheet of 1974."),
         group("hand.switch_force", {"plus_y": Normal(0.4), "minus_y": Normal(0.4)}, "oz",
@@ -198,6 +198,6 @@ def rubbing(kinds: Sequence[str]) -> Iterator[Quantity]:
     yield from group(
         "friction", {name: Uniform(15.0) for name in kinds}, "%",
         "Relative deviation of the coefficients of friction from their values in the drawing.", least=-100.0,
-        unsourced="two laboratories measure different friction for the same pair of metals (VAMAS round robin, Wear "
-                  f"114, 1987; ASTM G115), and this pump was never measured. {DOUBLED}",
+        unsourced="for the same pair of metals, the measured friction differs from laboratory to laboratory (VAMAS "
+                  f"round robin, Wear 114, 1987; ASTM G115), and this pump was never measured. {DOUBLED}",
     )  # fmt: skip

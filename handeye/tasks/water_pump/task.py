@@ -45,8 +45,8 @@ class WaterPump(Task):
         year=1973,
         program="water_pump",
         times={"planning": 60.0, "manipulation": 240.0, "lens": 90.0, "vision": 2.0},
-        differs="The job of 1973 had eleven steps. This program has a twelfth stage and more checks, so it does more "
-        "work. The program water_pump_1973 has only the eleven steps.",
+        differs="The job of 1973 had eleven steps. This program has twelve stages and more checks, so it does more "
+        "work. The program water_pump_1973 has only the eleven stages that correspond to those steps.",
     )  # Bolles and Paul, STAN-CS-73-396
     contacts = MappingProxyType({
         "grasp": ("WEB",), "pin": ("T1", "T2"), "gasket": ("GON",), "top": ("TOPON",),

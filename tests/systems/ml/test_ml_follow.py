@@ -149,7 +149,9 @@ def test_a_square_without_a_touch_is_no_turn_and_many_of_them_are_a_lost_followe
     lost = walked("F", "LLLL" * IDLE)
     assert lost.lost
     assert not walked("F", "LLLL" * (IDLE - 1)).lost
-    assert "the wand has gone around 40 squares with sides of one step and touched nothing" in lost.text
+    assert (
+        "the wand has gone 40 times around a square with sides of one step, and touched nothing" in lost.text
+    )
     assert followed(replace(lost, missed=0, statements=LONGEST - 1), (0, 0), (0, 0), lost.noticed).lost
 
 
@@ -231,7 +233,8 @@ def test_a_follower_that_finds_its_wall_no_more_says_that_it_is_lost() -> None:
     result = done(runner)
     assert (result.exit_code, result.completed) == (1, False)
     lost = (
-        "the follower is lost: the wand has gone around 40 squares with sides of one step and touched nothing"
+        "the follower is lost: the wand has gone 40 times around a square with sides of one step, "
+        "and touched nothing"
     )
     assert result.message.startswith(lost)
 

@@ -137,7 +137,10 @@ def test_a_place_that_depends_on_the_way_is_refused_and_so_is_one_out_of_reach()
     (told,) = refused("10 MOVE X1 TO 20\n")
     assert "the place of Y1 and Z1 is not known here" in told
     (told,) = refused("10 ORIGIN X1, Y1, Z1\n20 MOVE X1 BY 5\n30 LIMIT X1, 9\n40 GOTO 20\n")
-    assert "the LIMIT or the SPEED of its motors depends on how the program reached this line" in told
+    assert (
+        "the LIMIT or the SPEED of an axis that this line moves depends on how the program reached this line"
+        in told
+    )
     far = bridge((3000.0, 0.0))
     program, _ = far.compile(Source(name="press.mal", text=PRESS), Taught())
     assert program is not None

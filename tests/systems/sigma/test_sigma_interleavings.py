@@ -101,7 +101,10 @@ def test_lines_that_no_order_reaches_are_named_because_nothing_is_known_about_th
     file.write_text("10 IF BEAM(1) = 0 THEN STOP\n20 A = 1\n30 REM\n40 WAIT NEVER\n", encoding="utf-8")
     code, out, _ = command("sigma", "check", str(file), "--interleavings")
     assert (code, out.splitlines()[0]) == (
-        0, "not checked: no order reaches lines 20 to 40 (in this check, sensors answer 0 and no motion is aborted)",
+        0, (
+            "not checked: lines 20 to 40, which no order of the tasks reaches (in this check, sensors answer 0 and "
+            "no motion is aborted)"
+        ),
     )  # fmt: skip
     code, out, _ = command("sigma", "check", str(file), "--interleavings", "--json")
     assert json.loads(out)["unreached"] == [20, 40]

@@ -56,8 +56,8 @@ def arm_fault(name: str, *calls: str, harmless: str = "") -> FaultKind:
         late = f"motor {_NUMBERS[axis]} ({axis}) does not reach its goal"
         meanings = {
             "dead": f"The motor of {axis} stays where it was when the fault began.",
-            "slow": f"The motor of {axis} reaches only this share of its greatest speed.",
-            "weak": f"The motor of {axis} has only this share of its force.",
+            "slow": f"The motor of {axis} reaches only this fraction of its greatest speed.",
+            "weak": f"The motor of {axis} gives only this fraction of its full force.",
             "stuck": f"The potentiometer of {axis} repeats the reading that it had when the fault began.",
         }
         size = Size(unit="", usual=0.1, limits=(0.001, 1.0)) if what in ("slow", "weak") else None

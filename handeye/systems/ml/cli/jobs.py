@@ -62,5 +62,5 @@ def carry_out_trials(
 
     return carry_out_job_trials(
         sweep, partial(job_setup, plan), n, seed, errors, options, settings={"variant": plan.variant},
-        title=f"{title}, in worlds whose seeds count up from {seed}", again=again,
+        title=f"{title}, in worlds with seeds from {seed} upwards", again=again,
     )  # fmt: skip

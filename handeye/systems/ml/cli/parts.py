@@ -28,8 +28,8 @@ def orient(
     `plans/orient.ml` takes the bar out of a cradle, in which the bar is pitched by up to 50 degrees and turned by up
     to 25 degrees. The program puts the bar down with a guarded move, which stops at a contact. Then the program lets
     the bar fall flat, and grasps the bar again. To learn where the bar is, the program moves the end of the bar
-    against a stop; then it grasps the bar in the middle. A referee checks that the fingers hold the bar, within 3
-    degrees of the required attitude and within 1 mm of the required place.
+    against a stop; then it grasps the bar in the middle. A referee checks that the fingers hold the bar, and that the
+    bar is within 3 degrees of the required attitude and within 1 mm of the required place.
 
     Exit code 0: right; 1: the program has stopped before its end; 3: it has ended, but the referee disagrees; 2: bad
     input; 130: interrupted.

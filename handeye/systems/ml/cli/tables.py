@@ -48,7 +48,8 @@ def tables(
     sense: Annotated[
         list[str] | None,
         Parameter(
-            help="What a sensor or interlock reads while a program runs. The form is that of `handeye ml run`."
+            help="Reading of a sensor, or state of an interlock, while a program runs; written as for `handeye ml "
+            "run`."
         ),
     ] = None,
     json: Json = False,
@@ -72,7 +73,7 @@ def tables(
     else:
         if sense:
             raise BadArgument(
-                "--sense applies only to a program (.ml), because only a program is run by this command"
+                "--sense applies only to a program (.ml), because this command runs nothing else"
             )
         done = _recorded(run_or_newest(file))
     cycle = _cycle(at, done)

@@ -22,7 +22,11 @@ def touch(
     ] = None,
     speed: Annotated[float | None, Parameter(help="Speed of the slide, 1 to 200 mm/s. Default: 25.")] = None,
     limit: Annotated[
-        WholeNumber, Parameter(help="Limit of the strain gauge in the right finger, 10 to 1500 grams.")
+        WholeNumber,
+        Parameter(
+            help="The hand stops when the strain gauge in the right finger reads more than this limit, 10 to 1500 "
+            "grams."
+        ),
     ] = 300,
     phase: Annotated[
         float,

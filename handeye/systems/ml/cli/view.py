@@ -22,7 +22,7 @@ def view(
     variant: Annotated[str, Parameter(help="Variant of the job, such as the outline for `follow`.")] = "",
     sense: Annotated[
         list[str] | None,
-        Parameter(help="What a sensor or interlock reads. The form is that of `handeye ml run`."),
+        Parameter(help="Reading of a sensor, or state of an interlock; written as for `handeye ml run`."),
     ] = None,
     port: Annotated[WholeNumber, Parameter(help="Port on this computer; 0 for any free port.")] = 0,
     out: Out = None,

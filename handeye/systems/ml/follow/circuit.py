@@ -72,8 +72,8 @@ class Felt(Record, frozen=True, kw_only=True):
             return EVERYWHERE
         if self.missed >= ROUND * IDLE:
             return (
-                f"the wand has gone around {counted(self.missed // ROUND, 'square')} with sides of one step and "
-                "touched nothing"
+                f"the wand has gone {counted(self.missed // ROUND, 'time')} around a square with sides of one step, "
+                "and touched nothing"
             )
         if self.statements >= LONGEST:
             return f"the circuit is still open after {counted(self.statements, 'statement')}"

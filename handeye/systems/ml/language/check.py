@@ -22,7 +22,7 @@ _ARMS: Final[dict[Side, ArmSpec]] = {"right": RIGHT, "left": LEFT}
 _CHOICES: Final[dict[str, Side]] = {"RIGHT": "right", "LEFT": "left"}
 _PAIRS: Final = {"NEXTI": "LOOPI", "NEXTJ": "LOOPJ", "RETURN": "GOSUB"}
 _AT_POINTS: Final = {"DEFPOINT": 1, "GOPOINT": 1, "JOY": 1, "GOLINE": 2, "GOMEAN": 2}
-"""For each command, the number of its first parameters that are statement numbers of POINTs."""
+"""For each command, how many of its parameters, from the first on, are statement numbers of POINTs."""
 
 
 def checked(

@@ -87,7 +87,7 @@ CODES: Final[dict[str, Mistake]] = {
         cure="give the line a number; `handeye ml` executes lines without a number immediately",
     ),
     "point-not-filled": Mistake(
-        meaning="the arm goes to a POINT to which no statement gives positions", example="5 POINT\n10 GOPOINT 5",
+        meaning="the arm goes to a POINT that no statement fills with positions", example="5 POINT\n10 GOPOINT 5",
         cure="fill the point with DEFPOINT or JOY, or give its positions: `5 POINT * 0 0 2000 ...`", severity="warning",
     ),
     "too-fast": Mistake(
@@ -96,7 +96,8 @@ CODES: Final[dict[str, Mistake]] = {
         cure="before the motion, lower the speed with `PUT MT m 8 x`, or widen the limits", severity="warning",
     ),
     "unguarded-motion": Mistake(
-        meaning="a motion is not guarded: no sensor has limits", example="10 DMOTOR 2 -100\n20 STOP",
+        meaning="no sensor has limits during a motion, so nothing guards the motion",
+        example="10 DMOTOR 2 -100\n20 STOP",
         cure="write a SENSOR with limits before the motion", severity="warning",
     ),
 }  # fmt: skip

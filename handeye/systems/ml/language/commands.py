@@ -110,7 +110,7 @@ _ROWS: Final[dict[Category, tuple[tuple[str, str, str, str], ...]]] = {
          "20 LOOPJ 4"),
         ("NEXTI", "", "The end of the statements that LOOPI repeats.", "80 NEXTI"),
         ("NEXTJ", "", "The end of the statements that LOOPJ repeats.", "70 NEXTJ"),
-        ("RETURN", "", "Go back to the statement after the last GOSUB.", "950 RETURN"),
+        ("RETURN", "", "Go back to the statement after the GOSUB that called the subroutine.", "950 RETURN"),
         ("STOP", "", "End the program. The arm holds its position.", "99 STOP"),
     ),
     "motion": (
@@ -145,7 +145,8 @@ _ROWS: Final[dict[Category, tuple[tuple[str, str, str, str], ...]]] = {
     ),
     "data": (
         ("POINT", "", (
-            "Holds the positions of 12 motors, which DEFPOINT or JOY writes. When POINT is executed, it does nothing."
+            "Holds the positions of 12 motors. DEFPOINT or JOY writes these positions. When POINT is executed, it "
+            "does nothing."
         ), "5 POINT"),
     ),
     "arithmetic": (
@@ -191,7 +192,7 @@ _ROWS: Final[dict[Category, tuple[tuple[str, str, str, str], ...]]] = {
     ),
     "test": (
         ("TESTAI", "x", "Print analog input x.", "TESTAI 3"),
-        ("TESTAO", "x y", "Set analog output x to y. The pump must be off, because no limits are checked.",
+        ("TESTAO", "x y", "Set analog output x to y. The command checks no limits, so the pump must be off.",
          "TESTAO 3 100"),
         ("TESTDO", "x y [mask]", (
             "Set digital output word x to y. If a mask is given, set only the bits that the mask selects. The pump "
@@ -200,7 +201,7 @@ _ROWS: Final[dict[Category, tuple[tuple[str, str, str, str], ...]]] = {
     ),
     "host": (
         ("CMSDUMP", "f", "Write the stored program to a file of the host.", "CMSDUMP FOLLOW"),
-        ("CMSLOAD", "f", "Read a program from a file of the host, in place of the stored program.", "CMSLOAD FOLLOW"),
+        ("CMSLOAD", "f", "Replace the stored program by a program from a file of the host.", "CMSLOAD FOLLOW"),
         ("DHAND", "x11 [x12]", "Change the separation of the fingers by x11, and the angle between them by x12.",
          "30 DHAND -50"),
         ("GOLINE", "n1 n2", (

@@ -12,8 +12,8 @@ from handeye.systems.ml.tables.store import ArmMemory
 
 CAUSES: Final = ("", "PROGRAM", "SENSOR", "PANIC", "INTERLOCK", "CLASS", "STUCK")
 """Causes of emergencies, by their numbers in the table EM: an error of the program, a reading outside its emergency
-limits, the panic button, an interlock of the room or a table, a class interrupt of the System/7, and a motion that does
-not end.
+limits, the panic button, an interlock of the room or of a work table, a class interrupt of the System/7, and a motion
+that does not end.
 """
 _INTERLOCKS: Final[Mapping[str, tuple[str, str]]] = {
     "panic": ("PANIC", "the panic button is pressed"),

@@ -23,8 +23,8 @@ FEW: Final = {"bin": "3"}  # variants of jobs that have little work, for trials 
 USUAL: Final = {"follow": "square", "bin": "8", "typewriter": "4"}  # variants of jobs if none is named
 
 COUNTED: Final = {"bin": "5 LOAD 33 {}\n"}
-"""The statement that the operator of a job stores before the program runs, because only the operator has counted the
-parts. `{}` stands for the variant of the job, which is the number of parts.
+"""By job: the statement that gives the program the number of parts. Only the operator has counted the parts, so the
+operator stores this statement before the program runs. `{}` stands for the number, which is the variant of the job.
 """
 
 

@@ -115,7 +115,7 @@ def relay_trials(
         cases(seed, range(n)),
         head_of(RELAYS, setup.world, settings={"relay": digest_of(setup)}, camera=setup.camera),
         options,
-        title=f"{file.name} in worlds whose seeds count up from {seed}",
+        title=f"{file.name} in worlds with seeds from {seed} upwards",
         again=lambda row: f"handeye relay {words} --seed {row.seed}",
     )
 

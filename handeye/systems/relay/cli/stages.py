@@ -55,7 +55,7 @@ def stages(
     camera: Camera = "auto",
     options: SweepOptions = ANY,
 ) -> int:
-    """Do stages of the pump in several languages, which all start from the same state in each world.
+    """Do stages of the pump in several languages, from the same state in each world.
 
     In each world, and for each stage, the careful program (`water_pump.al`) first does all earlier stages. A program
     in each language then continues from this state and does the stage, and the referee judges the pump as it is after
@@ -64,9 +64,9 @@ def stages(
     pair of languages is compared in the worlds in which both were tried. A table says which stages only the arm
     language can express, and why.
 
-    The careful program takes about 20 CPU seconds in each world; each stage takes three to ten CPU seconds more.
-    Ctrl-C ends the batch and prints the trials that have finished. If you gave --out, repeat the command to continue
-    the batch; you can then also add worlds, stages and languages.
+    In each world, the careful program takes about 20 CPU seconds, and each stage takes another three to ten CPU
+    seconds. Ctrl-C ends the batch and prints the trials that have finished. If you gave --out, repeat the command to
+    continue the batch; you can then also add worlds, stages and languages.
 
     Exit code 0: no silent failure; 1: no trial finished; 3: a silent failure; 2: bad input; 130: interrupted.
     """
@@ -99,7 +99,7 @@ def stages(
             cases,
             head_of(STAGES, careful.world, settings={"programs": digest()}, camera=careful.camera),
             options,
-            title=f"Stages of the pump by language, in worlds whose seeds count up from {seed}",
+            title=f"Stages of the pump by language, in worlds with seeds from {seed} upwards",
             again=lambda row: shlex.join(
                 ["handeye", "trials", "stages", "--stage", row.of, "--language", row.language, *errors.words(),
                  "--n", "1", "--seed", str(row.seed)]
@@ -123,8 +123,8 @@ def _chosen(names: Sequence[str] | None, languages: Sequence[str] | None) -> "li
 
 
 def _careful(legs: "Iterable[StageLeg]") -> "StageLeg":
-    """Return a leg of the careful program. Its stage is the last stage of `legs`, or the last stage that several
-    languages can do, whichever is later.
+    """Return a leg of the careful program. The stage of this leg is the last stage of `legs`, or the last stage that
+    several languages can do, whichever is later.
     """
     from handeye.systems.relay.stages.languages import shared, stage_legs, stages
 
@@ -133,7 +133,9 @@ def _careful(legs: "Iterable[StageLeg]") -> "StageLeg":
 
 
 def _run_careful(careful: "Setup", folder: Path, cases: "Sequence[Case]", options: SweepOptions) -> None:
-    """Run the careful program in each world in which a trial is missing, unless the folder already has this run."""
+    """Run the careful program in each world in which a trial is missing. If the folder already contains the careful
+    program's run in a world, this run is not repeated.
+    """
     from msgspec.structs import replace
 
     from handeye.trials.folder import kept_trials

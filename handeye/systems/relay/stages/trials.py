@@ -275,8 +275,8 @@ def _summary(rows: Sequence[StageRow]) -> list[str]:
         "Low and high: Wilson's interval, 95 %. The arm's time and the peaks are those of accepted trials. A peak "
         "is the greatest resultant force of all contacts on the arm at the end of a servo period; it includes the "
         "weight of a held part. To plan: CPU time of this computer to plan, teach or read the whole program. p: "
-        "McNemar's exact test; p of time: Wilcoxon's signed-rank test, over the worlds in which both languages "
-        "were accepted.",
+        "McNemar's exact test; p of time: Wilcoxon's signed-rank test, over the worlds in which the stage was "
+        "accepted in both languages.",
         *(
             f"no leg: {stage}, {language}: {why}"
             for (stage, language), why in WITHOUT_LEG.items()

@@ -258,7 +258,8 @@ class _Translation:
         settings = [*limits, *(before.speeds[name] for name in moved)]
         if any(isinstance(value, Unknown) for value in settings):
             self._refuse(
-                line, "the LIMIT or the SPEED of its motors depends on how the program reached this line"
+                line,
+                "the LIMIT or the SPEED of an axis that this line moves depends on how the program reached this line",
             )
             return []
         for name, place in moved.items():
@@ -288,7 +289,7 @@ class _Translation:
         if isinstance(way, Unknown):
             self._refuse(
                 line,
-                "the line to which ON ABORT leads is different for different axes of this motion, or depends on "
+                "ON ABORT leads to different lines for different axes of this motion, or to a line that depends on "
                 "the path to this motion",
             )
             return []

@@ -94,7 +94,7 @@ class Layout(Record, frozen=True, kw_only=True):
         for segment in range(len(self.behind)):
             if (count := sum(place.segment == segment for place in self.places)) > FAN_OUT:
                 raise BadArgument(
-                    f"segment {segment} has {count} microcomputers, but it can drive only {FAN_OUT}; put the others "
+                    f"segment {segment} has {count} microcomputers, but it can drive only {FAN_OUT}; put the rest "
                     "behind a regenerator"
                 )
 

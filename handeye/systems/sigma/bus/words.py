@@ -65,7 +65,7 @@ def _what(event: AnyBusEvent) -> str:
         case AnswerEnded():
             failed = f"; {event.failed}" if event.failed else ""
             told = spaced(event.answer) or "nothing"
-            return f"the wait for the answer of {name_of(event.number)} ends, with {told}{failed}"
+            return f"the wait for the answer of {name_of(event.number)} ends; received: {told}{failed}"
         case StatusLines():
             status = Status(event.status)
             return f"{name_of(event.number)} shows {event.status >> 1}-{event.status & 1}, {status.name}"

@@ -62,7 +62,7 @@ class Chess(JobTask):
                 across,
                 PLACED,
                 "mm",
-                "greatest distance of a piece from the line where pieces of its height belong",
+                "greatest distance of a piece from the line for its height",
             ),
             "heights": at_most(wrong, HEIGHT, "mm", "greatest error of a height measured by the program"),
         }

@@ -39,7 +39,8 @@ def bridge(
     output: Annotated[Path | None, Parameter(name=["--out", "-o"])] = None,
     overwrite: Overwrite = False,
 ) -> int:
-    """Turn a MAL program into a plan for the Stanford arm. The program may use MOVE, LIMIT, ACTUATE and tests of FORCE.
+    """Turn a MAL program into a plan for the Stanford arm. The program may use only MOVE, ORIGIN, LIMIT, SPEED,
+    ACTUATE, ON ABORT, GOTO, END, STOP, REM, and tests of FORCE right after a MOVE.
 
     `handeye run` runs the plan. A program with a line that cannot become a motion is refused, and each such line is
     named.

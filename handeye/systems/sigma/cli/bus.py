@@ -1,4 +1,4 @@
-"""The commands that show the MICROBUS, and how often commands on it are misread."""
+"""The `handeye sigma` commands that show the signals on the MICROBUS, and how often a receiver misreads them."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -77,9 +77,9 @@ def demo(
 ) -> int:
     """Send a command and ask a question; show the signals on all lines and the bytes that each receiver takes.
 
-    From its second byte on, the command to X1 reads like a command to Y1. If Y1 becomes free in the middle of that
-    command (`--late-riser`), Y1 ignores the bytes that it still receives; with `--fault long-strobe` as well, Y1 takes
-    these bytes for its own command.
+    From its second byte on, the command to X1 reads like a command to Y1. If Y1 becomes free in the middle of the
+    command to X1 (`--late-riser`), Y1 ignores the bytes that it still receives; with `--fault long-strobe` as well, Y1
+    takes these bytes for its own command.
 
     Exit code 0: every byte arrived as it was sent; 1: a byte was misread; 2: bad input.
     """
@@ -190,7 +190,8 @@ def _microseconds(begin: float | None, end: float) -> tuple[int, int]:
     first = begin or 0.0
     if not 0 <= first < end <= _LONGEST_DIAGRAM:
         raise BadArgument(
-            f"a diagram must begin at 0 s or later and end after its beginning, not go from {first:g} to {end:g} s"
+            "a diagram must begin at 0 s or later, and end after its beginning, within the first "
+            f"{_LONGEST_DIAGRAM:g} s; the given times are {first:g} s and {end:g} s"
         )
     return round(first * 1e6), round(end * 1e6)
 
@@ -210,7 +211,8 @@ def errors(
     seed: Annotated[
         WholeNumber,
         Parameter(
-            help="Seed of the world: it determines the bytes, the clocks, and when receivers become free."
+            help="Seed of the random numbers: the bytes of the commands, the errors of the clocks, and the times at "
+            "which receivers become free."
         ),
     ] = 0,
     json: Json = False,

@@ -44,9 +44,10 @@ Arm = Annotated[
     ArmName,
     Parameter(
         name="--arm",
-        help="What the program drives. `none`: perfect motors. `wired`: ten microcomputers that run their firmware, "
-        "each sampling the wires of their bus with its own clock. `none` and `wired` have no obstacles. `gantries`: "
-        "the same microcomputers, and a simulated machine with two gantries over an empty board.",
+        help="What the program drives. `none`: perfect motors. `wired`: ten microcomputers on a bus run their "
+        "firmware, and each microcomputer samples the wires of the bus with its own clock. `none` and `wired` have "
+        "no obstacles. `gantries`: the same microcomputers, and a simulated machine with two gantries over an empty "
+        "board.",
     ),
 ]
 

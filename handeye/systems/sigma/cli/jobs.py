@@ -304,5 +304,5 @@ def _try_out(
     assert plan is not None
     return carry_out_job_trials(
         TRIALS[job], partial(job_setup, plan), n, seed, errors, options, settings={"pieces": plan.pieces},
-        title=f"{title}, on boards whose seeds count up from {seed}", again=again,
+        title=f"{title}, on boards with seeds from {seed} upwards", again=again,
     )  # fmt: skip

@@ -39,9 +39,7 @@ class Means(NamedTuple):
 MEANS: Final = {
     "selftest": Means("selftest", "the power-on self-tests"),
     "clocks": Means("clocks", "measure how long each microcomputer takes to answer"),
-    "strobe": Means(
-        "strobe", "let a microcomputer become free in the middle of a command to another microcomputer"
-    ),
+    "strobe": Means("strobe", "make a microcomputer become free while another one receives a command"),
     "force": Means("force ARM", "apply known forces to a wrist, along each of its axes X, Y and Z"),
     "beam": Means(
         "beam ARM",
@@ -222,7 +220,7 @@ class Game:
         paper = (
             f"the order of tests in the paper finds the part after {counted(usual.tests, 'test')}"
             if usual.part == self.planted.part
-            else f"the order of tests in the paper does not find the part in {counted(usual.tests, 'test')}"
+            else f"the order of tests in the paper needs {counted(usual.tests, 'test')} and does not find the part"
         )
         return [f"{right}: {self.planted.told}. You used {counted(self.tests, 'test')}; {paper}."]
 

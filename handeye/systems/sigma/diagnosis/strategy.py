@@ -18,9 +18,10 @@ from handeye.systems.sigma.protocol import AXES, COMPONENTS, NUMBERS, name_of
 
 ARMS: Final = (1, 2)
 UNDECIDED: Final = (
-    "every test passes, but no test can find three faults. Line A of a wrist or hand may be stuck low: it never "
-    "rises even without this fault. Line B of a wrist may be stuck high: a wrist is always busy. One of the two "
-    "lowest bits of a converter may be stuck: these bits change a reading by .1 N at most"
+    "every test passes, but three kinds of faults cannot be found by any test. Line A of a wrist or hand may be "
+    "stuck low: a sound line A of these parts never rises either. Line B of a wrist may be stuck high: a wrist is "
+    "always busy. One of the two lowest bits of a converter may be stuck: these bits change a reading by .1 N at "
+    "most"
 )
 _NEAR_N: Final = 0.15  # greatest error of a sound wrist, if its load is known to .1 N
 _OFFSET_SPREAD_N: Final = 0.11  # greatest spread of the errors of a gauge that only has an offset
@@ -150,7 +151,7 @@ class Strategy:
                 )
             raise Found(f"driver of {axis}", "the axis reaches neither switch")
         if far.status is Status.FREE and far.count == far.steps:
-            raise Found(f"high switch of {axis}", "the motor runs to the end of its pulses, past the switch")
+            raise Found(f"high switch of {axis}", "the motor makes all its steps, past the switch")
         if far.status is Status.FREE:
             raise Found(f"status line A of {axis}", "the switch stops the motor, but the line stays low")
         if not far.count:

@@ -106,7 +106,7 @@ def crash(speed: float | None, *, reflex: bool, endless_loop: bool = False, lowe
             vm.settle()
     _pass(bus)
     if endless_loop:
-        message = "nothing, because the central computer hangs; it assumes that its last command was executed"
+        message = "nothing, because the central computer hangs; its count takes the last command as executed"
     else:
         message = vm.memory.fault.told if vm.memory.fault else f"ARRIVED AT {GOAL:g}"
     axes = tuple(_after(axis, vm, bus, gantries, greatest, stops) for axis in ARMS)
@@ -189,8 +189,8 @@ def lines(found: Crash) -> list[str]:
 
 _MEETS: Final = (
     "into the stationary hand of arm 2",
-    "with its column, above the wrist, into the stationary hand of arm 2",
-    "into the stationary column of arm 2, above the wrist",
+    "into the stationary hand of arm 2, with the column above its own wrist",
+    "into the column of the stationary arm 2, above that arm's wrist",
 )
 _HITS: Final = {1: "the hand of arm 2, with the column of arm 1", 2: "the column of arm 2"}
 

@@ -138,8 +138,8 @@ class Gantries(Plant[GantryMemory]):
         self._places = slice(self._levels, self._levels + self._n)
         self._servos = self._n + len(rig.arms)  # a job may have more motors, which follow these
         self.actuated: list[Callable[[int, Sequence[int]], None]] = []
-        """Functions that are called when the outputs of a hand microcomputer have changed. They take the number and
-        the outputs of the microcomputer.
+        """Functions that are called when the outputs of a hand microcomputer have changed. Each function takes the
+        number of the microcomputer and its outputs.
         """
         assert self.bench.tick * 10**6 * PS == TICK
         model, data = self.bench.model, self.bench.data

@@ -25,7 +25,7 @@ CODES: Final[dict[str, Mistake]] = {
     ),
     "flag-never-set": Mistake(
         meaning="a task waits for a flag that no line sets", example="10 WAIT READY",
-        cure="set the flag with SET in another task, or correct its name", severity="warning",
+        cure="set the flag with SET in another task, or correct the name of the flag", severity="warning",
     ),
     "for-without-next": Mistake(
         meaning="a FOR has no later NEXT with the same variable in the same task",

@@ -295,7 +295,7 @@ class _Search:
             owner = state.memory.owners.get(axis)
             if owner is not None and owner.task != name:
                 there = self.program.line_of(owner.address).number
-                told = f"both the task {owner.task}, line {there}, and the task {name}, line {here}, drive {axis}"
+                told = f"the tasks {owner.task} (line {there}) and {name} (line {here}) both drive {axis}"
                 self._find("axis", told, [there, here], key)
 
     def _see_hands(self, key: bytes, state: _State) -> None:
@@ -412,12 +412,15 @@ def told_orders(name: str, program: MalProgram, result: Interleavings) -> Iterat
             yield from (f"    {line}" for line in schedule_lines(finding.schedule))
         shown.add(finding.kind)
     if lines := unreached_lines(program, result):
-        yield f"not checked: no order reaches {lines} (in this check, sensors answer 0 and no motion is aborted)"
+        yield (
+            f"not checked: {lines}, which no order of the tasks reaches (in this check, sensors answer 0 and no "
+            "motion is aborted)"
+        )
     count = counted(result.states, "state")
     orders = (
         "all orders were tried"
         if result.complete
-        else "not all orders were tried; with a larger `--most`, more are tried"
+        else "not all orders were tried; give a larger `--most` to try more"
     )
     found = counted(len(result.findings), "finding") if result.findings else "no deadlock and no race"
     ends = f"; the program ends in {counted(result.ends, 'different way')}" if result.ends > 1 else ""

@@ -31,7 +31,7 @@ def problems(program: MalProgram, found: Interleavings) -> Iterator[tuple[bool, 
     if not found.ends:
         yield False, "the program never ends", "no order of the tasks leads to the end"
     if lines := unreached_lines(program, found):
-        yield True, "lines are never executed", f"no order reaches {lines}"
+        yield True, "lines are never executed", f"no order of the tasks reaches {lines}"
 
 
 def order_problems(name: str, text: str) -> list[tuple[bool, str]]:

@@ -32,7 +32,9 @@ WORDS: Final[dict[str, Word]] = {
     "GOSUB": Word(
         "statement", "GOSUB line", "Go to a subroutine; its RETURN goes back to the line after GOSUB.", "10 GOSUB 500",
     ),
-    "RETURN": Word("statement", "RETURN", "Go back to the line after the last GOSUB.", "570 RETURN"),
+    "RETURN": Word(
+        "statement", "RETURN", "Go back to the line after the GOSUB that called the subroutine.", "570 RETURN",
+    ),
     "FOR": Word(
         "statement", "FOR name = expression TO expression [STEP expression]",
         "Repeat the lines up to NEXT, once for each value of the variable. The lines run at least once.",
@@ -105,7 +107,7 @@ WORDS: Final[dict[str, Word]] = {
     ),
     "LIMIT": Word(
         "statement", "LIMIT axis, (expression|STANDARD)",
-        "Set the force (in N) above which the axis stops; STANDARD sets the standard limit of the machine again.",
+        "Set the force (in N) above which the axis stops; STANDARD restores the standard limit of the machine.",
         "10 LIMIT Z2, 25",
     ),
     "ACTUATE": Word(
@@ -148,7 +150,7 @@ WORDS: Final[dict[str, Word]] = {
     ),
     "CRASHPOS": Word(
         "function", "CRASHPOS(axis)",
-        "The position (in mm) at which the last motion of the axis was aborted, as the motor reports it.",
+        "The position (in mm, reported by the motor) at which a motion of the axis was last aborted.",
     ),
     "STATUS": Word("function", "STATUS(axis)", "The state of the axis: 0 free, 1 busy, 2 stopped at the end "
     "of its rail, 3 stopped by a force."),
@@ -160,7 +162,7 @@ WORDS: Final[dict[str, Word]] = {
     "NOT": Word("operator", "NOT condition", "True if the condition does not hold."),
     "AND": Word(
         "operator", "condition AND condition",
-        "True if both conditions hold. In WAIT: all these flags must be set.",
+        "True if both conditions hold. In WAIT, between flags: wait until all of them are set.",
     ),
     "OR": Word("operator", "condition OR condition", "True if at least one of the conditions holds."),
 }  # fmt: skip

@@ -94,7 +94,7 @@ def palletise(
     """Move a stack of blocks onto a pallet, and back. This is the second example of TRIG's paper, with physics, in a
     random world.
 
-    A simulated person types the 26 lines of the example into a new editor, and teaches positions with errors of about
+    A simulated person types the 26 lines of the example, and teaches positions with errors of about
     .3 mm. Then the program runs forwards, and a referee judges the result. Finally the program runs backwards, and the
     referee judges again. Twenty blocks take some minutes.
 
@@ -166,7 +166,7 @@ def _carried_out(
     folder: "RunFolder | None",
     video: "JobVideo | None",
 ) -> "tuple[JobReport, TaughtJob]":
-    """Teach a job and execute it. The result is written to the folder before the user can interrupt the command."""
+    """Teach a job and execute it. Unless the panic button stops the job, write the result to the folder."""
     from handeye.results.cautions import losses
     from handeye.results.finishing import finished, outcome
     from handeye.runs.host_seconds import Meter
@@ -273,7 +273,7 @@ def pallet_trials(
         cases(seed, range(n)),
         head_of(PALLET, world, settings=settings),
         options,
-        title=f"the palletiser with {counted(blocks, 'block')}, in worlds whose seeds count up from {seed}",
+        title=f"the palletiser with {counted(blocks, 'block')}, in worlds with seeds from {seed} upwards",
         again=lambda row: f"handeye trials pallet --n 1 --seed {row.seed} --blocks {blocks}{broken}",
         more={"blocks": blocks, "interrupted": interrupt},
     )

@@ -1,4 +1,4 @@
-"""The user interface with a full screen: live displays, and keys for the teach box.
+"""The full-screen user interface: live displays, and keys for the teach box.
 
 The session runs in a thread of its own, so that the screen can read keys while the arm moves. Only one thread at a
 time may read the program and draw the displays: the screen's thread while the session waits, and the session's thread

@@ -88,7 +88,7 @@ class _ProgressDesk(Script):
 
 
 def interrupting(halted: Callable[[], bool]) -> Halted:
-    """Return the halt function for a session that types a script. After Ctrl-C, this function raises
+    """Return the halt function of a session whose lines come from a script. After Ctrl-C, this function raises
     KeyboardInterrupt, which interrupts the whole script.
     """
 

@@ -1,4 +1,4 @@
-"""Draws the arm above its table with characters: the table from above, and a scale with the height of the hand."""
+"""Draws the arm and its table as text: the table seen from above, and a scale that shows the height of the hand."""
 
 from collections.abc import Mapping
 from typing import Final

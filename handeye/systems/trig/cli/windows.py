@@ -125,7 +125,7 @@ class Picture:
     count: int
     arm: str
     table: list[Line]
-    """The arm and its table; empty on a narrow terminal."""
+    """Drawing of the arm and its table; no lines if the terminal is too narrow for the drawing."""
 
 
 def pictured(session: Session, size: tuple[int, int]) -> Picture:

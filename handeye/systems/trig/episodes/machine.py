@@ -30,8 +30,8 @@ from handeye.systems.trig.run.job import job_of
 
 _AXES: Final = (*PURBRICK.axes, PURBRICK.hand)
 MOVES: Final = tuple(f"{'turn' if spec.kind == 'revolute' else 'move'}.{spec.name}" for spec in _AXES)
-"""Names of the components of an action that each move one axis, in the order of the axes. The last component moves the
-hand.
+"""Names of the components of an action that move the axes: one component for each axis, in the order of the axes. The
+last one moves the hand.
 """
 _LOWER: Final = np.array([*(spec.lower for spec in PURBRICK.axes), PURBRICK.limits.closed])
 _UPPER: Final = np.array([spec.upper for spec in _AXES])

@@ -27,9 +27,9 @@ from handeye.systems.trig.language.trig_arm import (
 APPROACH: Final = 5e-3
 """Length (m) of the last part of a set-down. This part is vertical, because a slanted path would push a stack over."""
 DEEPER: Final = 2e-3
-"""Distance below a place (m) within which the arm must find support when it puts an object back. Places are taught
-with an accuracy of .3 mm, so an object may have dropped by .6 to .9 mm when it was released. In addition, the arm may
-have grasped the object .6 to .9 mm too high.
+"""Distance below a place (m) within which the arm must find support when it puts an object back. The height of a
+taught place has a standard deviation of .3 mm. An object may therefore have dropped by two or three times as much (.6
+to .9 mm) when it was released. In addition, the arm may have grasped the object .6 to .9 mm too high.
 """
 AGAIN: Final = 1.5
 """Permitted force during the reversal of a move, as a multiple of the force that the move met. The factor is the same

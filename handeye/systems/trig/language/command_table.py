@@ -51,8 +51,8 @@ TABLE: Final = (
     TrigCommand(usage="GOUNGRASP", group=ARM, act=arm_commands.open, help="open the hand"),
     TrigCommand(
         usage="M [[-]POS [n|g]]", group=STEPS, takes=("signed", "branch"), act=step_commands.move(None),
-        help="move to a position; if the position is new, you teach it, and it becomes absolute or relative, like "
-        "the position of the move above",
+        help="move to a position; if the position is new, you teach it, and it takes its kind (absolute or "
+        "relative) from the nearest move above",
     ),
     TrigCommand(
         usage="MA [POS [n|g]]", group=STEPS, takes=("position", "branch"), act=step_commands.move("absolute"),
@@ -83,7 +83,7 @@ TABLE: Final = (
     ),
     TrigCommand(
         usage="LOOP STEP COUNT", group=STEPS, takes=("step", "count"), needs=2, act=step_commands.loop,
-        help="go back to STEP, COUNT times in all; then continue",
+        help="go back to STEP COUNT times, so the steps of the loop are done COUNT + 1 times; then continue",
     ),
     TrigCommand(
         usage="L STEP [n|g]", group=STEPS, takes=("step", "branch"), needs=1, act=step_commands.link,
@@ -120,7 +120,7 @@ TABLE: Final = (
     TrigCommand(usage="FLUSH", group=CHANGES, act=step_commands.flush, help="erase the program"),
     TrigCommand(
         usage="HERE POS", group=POSITIONS, takes=("position",), needs=1, act=arm_commands.here,
-        help="give the present position of the arm a name",
+        help="name the present position of the arm",
     ),
     TrigCommand(
         usage="SA POS", group=POSITIONS, takes=("position",), needs=1, act=arm_commands.here, help="the same as HERE"

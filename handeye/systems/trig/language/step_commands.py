@@ -129,7 +129,7 @@ def link(session: Session, given: Arguments) -> None:
     """L: make an existing step the next step after the active step."""
     program, target = session.program, session.step(given.step or "")
     if program.cursor == TOP or target.id == TOP:
-        raise Refused("the top cannot have a link; a link leads from one step to another")
+        raise Refused("a link leads from one step to another, and the top is not a step")
     branch = session.branch(given.branch)
     entry = program.graph.entry(target.id)
     son = program.active.sons[branch]

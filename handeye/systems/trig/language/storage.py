@@ -76,7 +76,7 @@ def _loop_faults(graph: Graph) -> Iterator[str]:
         if partner is None or partner.partner != id or {node.type, partner.type} != {"loop", "bloop"}:
             yield f"the {node.type} {id} has no partner"
         elif node.type == "bloop" and node.partner not in graph.distances(id):
-            yield f"the loop {node.partner} is not below the step that it goes back to"
+            yield f"the loop {node.partner} goes back to a step from which no path leads down to the loop"
         if not 0 <= node.count <= node.wanted:
             yield f"the loop {id} has a count of {node.wanted}, but has gone back {counted(node.count, 'time')}"
 

@@ -132,8 +132,9 @@ def told_difference(planned: Sequence[TaughtStep], taught: Sequence[TaughtStep])
     first = next(one or other for one, other in zip_longest(planned, taught) if one != other)
     assert first is not None
     return (
-        "in this world, the script teaches steps that differ from those on the ideal arm, where the plan was made; "
-        f"the first difference is at step {first.line}, {quoted(first.text)}, or in the branches of this step"
+        "in this world, the script teaches steps that differ from the steps of the plan, which the script taught "
+        f"on the ideal arm; the first difference is at step {first.line}, {quoted(first.text)}, or in the branches "
+        "of this step"
     )
 
 

@@ -255,8 +255,8 @@ class RunningJob(RunningSystem):
         state = self._state
         if choice == "skip" and state.undoing is not None:
             raise Refused(
-                "no step can be skipped while the program runs backwards, because each step starts where the last "
-                "step ended: `proceed` tries again, `abort` ends the run"
+                "no step can be skipped while the program runs backwards, because the arm can undo a step only "
+                "from the place where this step ended: `proceed` tries again, `abort` ends the run"
             )
         if state.undoing is None:
             state.turn = None

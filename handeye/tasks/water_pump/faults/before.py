@@ -76,7 +76,10 @@ def _base() -> Iterator[PartFault]:
         Size(unit="deg", usual=35.0, limits=(-360.0, 360.0)),
     )  # fmt: skip
     yield _fault(
-        "base.far", "The belt has carried the base too far by this distance: out of the arm's reach, or out of sight.",
+        "base.far", (
+            "The belt has carried the base too far by this distance. The base is out of the arm's reach or out of "
+            "sight."
+        ),
         partial(scene.shift, "base", (0.0, 1.0)),
         ExpectedDetection(errors=(PART_NOT_SEEN, NO_SOLUTION, JOINT_LIMIT), calls=(detect.UNSEEN,)),
         Size(unit="in", usual=18.0, limits=(-60.0, 60.0)),
@@ -132,7 +135,7 @@ def _gasket() -> Iterator[PartFault]:
         ExpectedDetection(calls=(detect.GASKET_LOST, detect.TOO_LOW)),
     )  # fmt: skip
     yield _fault(
-        "gasket.torn", "A square with this side is torn off the gasket around screw hole 6.", scene.tear,
+        "gasket.torn", "A square with sides of this length is torn off the gasket around screw hole 6.", scene.tear,
         ExpectedDetection(errors=(GASKET_WRONG,), calls=(detect.NOT_ON,)),
         Size(unit="mm", usual=18.0, limits=(0.0, 30.0)),
     )  # fmt: skip

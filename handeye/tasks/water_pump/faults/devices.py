@@ -264,8 +264,8 @@ def _screwdriver() -> Iterator[DeviceFault]:
         ExpectedDetection(errors=(CURRENT_WRONG,)),
     )  # fmt: skip
     within = (
-        "The noise of the current hides a factor near 1: a factor of 1.1 when a screw seats, and a factor of .7 "
-        "when the motor starts."
+        "The noise of the current hides a factor up to 1.1 when a screw seats, and a factor down to .7 when the "
+        "motor starts."
     )
     yield _fault(
         f"{current}.factor", "The current of the screwdriver's motor shows the true torque times this "
@@ -277,8 +277,8 @@ def _screwdriver() -> Iterator[DeviceFault]:
         f"{motor}.slow", "The screwdriver's motor turns at the commanded speed times this factor.", motor, GainEffect,
         ExpectedDetection(
             errors=(CURRENT_WRONG,), calls=(detect.loose_screw(1), detect.loose_screw(3)),
-            harmless="A screw that turns more slowly seats equally well. A motor at half its usual speed is "
-            "noticed, because it reaches its lower speed sooner.",
+            harmless="A screw that turns more slowly seats equally well. Half the usual speed is noticed, because "
+            "the motor reaches it too soon.",
         ),
         Size(unit="", usual=0.4, limits=(0.0, 2.0)),
     )  # fmt: skip

@@ -150,7 +150,7 @@ def _screws() -> Iterator[MishapFault]:
             calls=(detect.untight_screw(number), detect.shifted_head(number)),
             harmless="Each screw is driven again, to the torque stop, before the program calls the pump finished.",
         )
-        meaning = f"Screw {number} works loose by this number of turns after it was driven."
+        meaning = f"After screw {number} was driven, it works loose by this number of turns."
         yield declared(
             f"screw.{number}.loose", meaning, _with_turns(number - 1), expected, size, stage=LAST_STAGE,
             spoils=_screw(number),

@@ -28,13 +28,13 @@ DRIVE_FIRST: Final = "drive the first two screws"
 DRIVE_LAST: Final = "drive the last four screws"
 
 ASTRAY: Final = "{what}: THE BASE IS LOST, OR A JOINT READS WRONG"
-"""Calls to the operator when the readings of a joint have been wrong from the beginning. These calls do not name the
-table or the blocks. The joint's two sensors agree, and the camera is calibrated with the wrong readings, so only the
-parts in the cell reveal the error.
+"""Calls to the operator when the readings of a joint have been wrong from the beginning. These calls blame the base or
+a joint, never the table or the blocks. The joint's two sensors agree, and the camera is calibrated with the wrong
+readings, so only the parts in the cell reveal the error.
 """
 JOINT_OR_PLACE: Final = "{what}, OR A JOINT READS WRONG"
-"""Calls to the operator if a fixture or part is not at its expected or earlier place, or if a hole or pin is not
-found. Either the object is out of place, or the gear or the potentiometer of a joint is faulty.
+"""Calls to the operator if a fixture or part is not where the program expects it, or if a hole or pin is not found.
+Either the object is out of place, or the gear or the potentiometer of a joint is faulty.
 """
 UNSEEN: Final = "THE BASE IS NOT SEEN ON THE BELT: ITS {what}"
 NOT_WHERE_SEEN: Final = (
@@ -79,9 +79,8 @@ ONCE: Final = {
     NOTHING_HELD: (NOT_WHERE_SEEN, NOT_LIFTED, NO_DRIVER, NO_TOP),
     SEARCH_EXHAUSTED: (PIN_IN_NO_HOLE, ON_PINS, SCREW_IN_NO_HOLE, NOT_WHERE_SEEN, NO_BASE),
 }
-"""For each error, the calls to the operator that have the same meaning. If there is a fault, the careful program calls
-the operator with one of these calls. A program that tries every step only once, like the program of 1973, ends with
-the error instead.
+"""For each error, the calls to the operator that have the same meaning as the error. Where a program that tries every
+step only once, like the program of 1973, ends with the error, the careful program makes one of these calls.
 """
 
 STIFF_ROTOR: Final = "THE ROTOR IS HARD TO TURN, OR A JOINT OF THE ARM IS"

@@ -317,8 +317,8 @@ class PumpClaims:
             of=self.places.touched(circle), over=self.places.face, limits=Limits(2.79 * INCH, 2.93 * INCH)
         )
         return Claim(
-            says="the fingers feel the end of the crank pin 2.86 inches over the face of the base, with a tolerance "
-            "of .07 inch",
+            says="the fingers feel that the end of the crank pin is 2.86 inches over the face of the base, with a "
+            "tolerance of .07 inch",
             phases=(Phase(by=(by,), undone=self.places.drives()),),
         )
 

@@ -44,7 +44,7 @@ def _sensed(screws: int) -> Iterator[Obligation]:
         Obligation(finding="gasket_height", claims=heads, rests=_LAYERS),
         Obligation(
             finding="gasket_place", claims=(claims.gasket(),),
-            rests="The pictures show a displaced gasket only if one of its edges is visibly out of place.",
+            rests="A displaced gasket is noticed only if the pictures show one of its edges out of place.",
         ),
         Obligation(finding="top_height", claims=heads, rests=_LAYERS),
         Obligation(
@@ -98,8 +98,8 @@ def _sensed(screws: int) -> Iterator[Obligation]:
         Obligation(finding="motor", claims=(claims.motor_off(),), rests=_SERVO),
         Obligation(
             finding="rest", claims=(claims.released(),),
-            rests="If a part hangs from the hand, the program may not notice: it touches only the parts that other "
-            "findings need.",
+            rests="The program touches only the parts that other findings need, so a part that hangs from the hand "
+            "may remain unnoticed.",
         ),
     )  # fmt: skip
 
@@ -123,10 +123,13 @@ _SERVO: Final = (
 )
 _UNSENSED: Final = {
     "screws_hold": "To test whether a screw holds, the arm would have to loosen the screw.",
-    "threads_scarred": "The arm does not feel a scar; the referee only warns of one.",
+    "threads_scarred": (
+        "The arm does not feel a scar in a thread. The referee does not reject a scarred thread, but adds a "
+        "caution."
+    ),
     "floor": "No step looks under the table.",
     "tray": (
-        "In the simulation, the screw's own body stays on its tray while a carrier represents the screw in its thread."
+        "In the simulation, a carrier represents a screw in its thread; the body of the screw stays on a tray."
     ),
     "still": "No step waits to see whether a part comes to rest.",
     "arm_still": (
@@ -136,8 +139,8 @@ _UNSENSED: Final = {
     "overlap_bores": "In the simulation, solids do not pass through each other.",
     "overlap": "In the simulation, solids do not pass through each other.",
     "as_drawn": "In the simulation, no part changes during a run.",
-    "bonds": "In the simulation, bonds open and close only as the work requires.",
+    "bonds": "In the simulation, a bond opens or closes only when the assembly requires it.",
     "held": "In the simulation, only the arm acts on the parts.",
     "numbers": "In the simulation, all numbers are finite.",
 }
-"""Findings that programs need not show, each with the reason."""
+"""Findings of the referee that no program has to prove, each with the reason."""

@@ -197,7 +197,7 @@ def _put_away(measured: SettledState, hidden: Sequence[int]) -> Finding:
     strayed = {name: measured.strayed([name], [name]) for name in strangers}
     farthest = max(strayed, key=strayed.__getitem__, default="")
     if strayed and strayed[farthest] * 1e3 > limits.TRAY:
-        subject = "distance of a foreign object from its place on the drawing"
+        subject = "distance of a foreign object from the place where the drawing shows it"
         return mm(strayed[farthest], limits.TRAY, f"{subject}: {farthest}")
     return mm(
         max((measured.from_site(f"screw{k}", f"park{k}") for k in hidden), default=0.0), limits.TRAY,

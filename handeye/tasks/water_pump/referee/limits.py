@@ -31,9 +31,9 @@ SCREW_STRAIN: Final = 420.0
 screws that are tightened later shift the load. In pumps that the arm has made, the force is at most 298 N.
 """
 SCREW_HOLD: Final = 0.02
-"""Least torque (N m) that may turn a screw back. It is the friction torque of a clean thread without a clamping force.
-With a clamping force of 40 N, a torque of at least .026 N m is needed to turn a screw back in any world. Without
-friction, the clamping force itself would turn the screw out.
+"""A smaller torque (N m) must not turn a screw back. The limit is the friction torque of a clean thread without a
+clamping force. With a clamping force of 40 N, a torque of at least .026 N m is needed to turn a screw back in any
+world.
 """
 SCREW_SIZE: Final = 0.35
 """Greatest deviation of any length or radius from the design (mm): the play of a screw's point in a tapped
@@ -50,9 +50,9 @@ thread of class 2: half the difference between the pitch diameters .2127 in and 
 SCREW_LEAN: Final = 1.0  # deg: at this tilt, one side of a head 11 mm wide is lifted by about SCREW_GAP
 SCARS: Final = 0
 """Greatest number of scarred threads; a larger number only causes a warning. Other limits judge how a scar affects the
-pump. A screw may have been backed out and then driven straight. It holds like any other screw if it clamps
-(SCREW_CLAMP), stands straight (SCREW_LEAN) and is deep enough in its thread (SCREW_THREAD). But a person who takes the
-pump apart must know of the scar, because a thread that was cut twice strips sooner.
+pump: a screw in a scarred thread holds like any other screw if it clamps (SCREW_CLAMP), stands straight (SCREW_LEAN)
+and is deep enough in its thread (SCREW_THREAD). But a person who takes the pump apart must know of the scar, because a
+thread that was cut twice strips sooner.
 """
 SOFT: Final = 0.03
 """Tolerated overlap beyond the clearance of a shank or pin in its hole (mm). Contacts are soft: a shank that was
@@ -77,10 +77,10 @@ more.
 RACK_PLACE: Final = 3.0  # mm from its place in the rack: guides and their bevels
 
 ROTOR_TORQUE: Final = 0.1
-"""Greatest torque (N m) to turn the rotor all the way round, in both directions: twice the friction of the rotor,
-which is .05 N m in every world. Inertia and bearing add .01 N m at the speed of the referee's turn. A rotor that needs
-.35 N m binds. Our notes on the system of 1973 describe a weaker check: it pushes the crank with 40 oz, and so accepts
-a rotor that needs .35 N m.
+"""Greatest torque (N m) to turn the rotor all the way round, in both directions. The limit is twice the friction
+torque of the rotor; this friction torque is .05 N m in every world. At the speed of the referee's turn, inertia and
+bearing add .01 N m. A rotor that needs .35 N m binds. Our notes on the system of 1973 describe a weaker check: it
+pushes the crank with 40 oz, and so accepts a rotor that needs .35 N m.
 """
 
 ROTOR_PLACE: Final = 0.1
@@ -94,7 +94,7 @@ at up to .1 mm/s; a joint held by its brake creeps at 9e-6 rad/s, which is .01 m
 """
 
 REST: Final = 0.25
-"""Greatest distance (mm) that any part may move until it has settled. In pumps that the arm has made, parts
+"""Greatest distance (mm) that any part may move while the parts settle. In pumps that the arm has made, parts
 settle by up to .03 mm; a part without support falls.
 """
 
@@ -104,8 +104,8 @@ APART: Final = 3.0  # mm from where the run found a part: the next run must find
 APART_GASKET: Final = 6.0
 """Greatest distance of the returned gasket from its original position (mm). When the fingers close on the gasket, they
 first drag it along its stand, by 3.3 mm in the world of seed 0, and then lift it. The arm returns the gasket to the
-place from which it was lifted. If the gasket were displaced by 6.4 mm, the fingers of the next run would not fit into
-its holes.
+place from which it was lifted. In the next run, the fingers would not fit into the holes of a gasket that is displaced
+by 6.4 mm.
 """
 APART_TURN: Final = 3.0
 """Greatest turn (degrees) of a part. If a part that is as long as the base is turned by this angle, its end moves by

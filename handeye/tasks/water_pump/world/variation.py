@@ -50,7 +50,7 @@ def variation() -> Variation:
             "screwdriver", {"torque_noise": Noise(0.004)}, "N m",
             "Noise of the screwdriver's motor current, expressed as a torque.",
             unsourced="the noise is about a hundredth of the torque at which the clutch of the screwdriver slips. "
-                "Bound: .02 N m, the torque of a clean thread, which the program can feel.",
+            "Bound: .02 N m, because the program can feel the torque of a clean thread, which is .02 N m.",
         ),
         *_camera(), *_light(), *_fixtures(), *_holes(), *_parts(),
     )  # fmt: skip
@@ -94,7 +94,7 @@ def _camera() -> Iterator[Quantity]:
         group("camera.turn", {axis: Normal(0.2) for axis in ("pan", "tilt", "roll")}, "deg",
             f"Rotation of the camera's mount. {_VISION}"),
         group("camera.focal_length", {lens: Normal(0.4) for lens in lenses}, "%",
-            f"Relative deviation of each lens's focal length from that of the drawing. {_VISION}", least=-50.0),
+            f"Relative deviation of each lens's focal length from its value in the drawing. {_VISION}", least=-50.0),
         group("camera", {"pot_noise": Noise(0.07)}, "deg",
             "Noise of the pan and tilt readings. In the vision study, noise of .07 to .10 deg reproduces the "
             "location errors of 1973."),
@@ -106,9 +106,9 @@ def _camera() -> Iterator[Quantity]:
             "height.",
             unsourced=f"the papers do not mention the shape of the raster, and the camera is lost. {DOUBLED}"),
         group("camera.raster", {"drift": Noise(0.3)}, "%",
-            "Shift of each picture from the previous one, as a fraction of half the picture's width and height. "
-            "Sigma is half a pixel. The paper mentions a slight shift between two pictures; section 4 of the "
-            "vision study says up to a pixel."),
+            "Shift of each picture from the previous one: sideways as a fraction of half the picture's width, and "
+            "up or down as a fraction of half its height. Sigma is half a pixel. The paper mentions a slight shift "
+            "between two pictures; section 4 of the vision study says up to a pixel."),
     )  # fmt: skip
 
 
@@ -176,8 +176,8 @@ def _parts() -> Iterator[Quantity]:
         group("parts.driver", play, "%", played, greatest=IN_PLAY),
         *(_of(k, group(f"parts.screws.{k}", play, "%", played, greatest=IN_PLAY)) for k in numbers),
         group("parts.driver", {"yaw": Uniform(0.3)}, "deg",
-            "Rotation of the screwdriver in its guides. The width of the guides allows this rotation, in addition "
-            "to the play of the screwdriver's position.", greatest=0.6),
+            "Rotation of the screwdriver in its guides. The guides are wide enough for this rotation and for the "
+            "play of the screwdriver's position together.", greatest=0.6),
         [Quantity(name="part_mass", unit="%", distribution=Normal(2.0), limits=(-90.0, MOST["%"]), source=masses,
                   unsourced=cast)],
         rubbing(RUBBING),
