@@ -85,8 +85,6 @@ class Executor:
         found = before(run)
         run.emit(StepStarted(time=run.time, step=here, file=step.file, line=step.line, text=step.text))
         self.state.at = self._past(self._perform(step))
-        if self.state.at is None:
-            run.drive.stop()  # the program has ended; under its drives, the arm would still sway
         self.state.done.append(noted(run, found, step=here, enters=enters))
         motion, planned = run.plan.motions.get(here), None
         if motion is not None:
@@ -107,6 +105,8 @@ class Executor:
             self._watch_for_circles()
         if self.state.stopped is not None:
             self.state.done[-1] = replace(self.state.done[-1], called=True)
+        elif self.state.at is None and self.state.undoing is None:
+            run.drive.stop()  # the program has ended; under its drives, the arm would still sway
         self._leave()
 
     def answer(self, choice: Choice) -> None:

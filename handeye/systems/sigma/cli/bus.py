@@ -211,7 +211,7 @@ def errors(
     seed: Annotated[
         WholeNumber,
         Parameter(
-            help="Seed of the random numbers: the bytes of the commands, the errors of the clocks, and the times at "
+            help="Seed of the random world: the bytes of the commands, the errors of the clocks, and the times at "
             "which receivers become free."
         ),
     ] = 0,
