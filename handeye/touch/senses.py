@@ -14,7 +14,7 @@ from handeye.core.units import INCH, OUNCE_FORCE
 FREE_OPENING: Final = 0.12 * INCH
 """Opening (m) after which a finger is clear of an object that it touched.
 
-Each finger moves by half of the opening, 1.5 mm. Only a force of about 18 N could deflect the arm by 1.5 mm.
+Each finger moves by half of the opening, 1.5 mm. Only a force of about 18 N deflects the arm by 1.5 mm.
 """
 GAP_ERROR: Final = 0.1 * INCH
 """Permitted difference (m) between the gap and its goal. The finger servo stops within a few hundredths of an inch of
