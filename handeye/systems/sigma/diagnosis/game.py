@@ -46,7 +46,7 @@ MEANS: Final = {
         "read the light beam of a hand three times: with nothing in the beam, with a rod, and with a grey filter",
     ),
     "grip": Means("grip ARM", "close a hand on a block that is not midway between the fingers"),
-    "origin": Means("origin AXIS", "move to the low end of a rail with ORIGIN"),
+    "origin": Means("origin AXIS", "use ORIGIN to move to the low end of a rail"),
     "rail": Means("rail AXIS", "move to the high end of a rail"),
     "moves": Means(
         "moves AXIS",
