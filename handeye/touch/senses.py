@@ -30,7 +30,7 @@ FREE_FORCE: Final = 45 * OUNCE_FORCE
 """Greatest force that the arm may sense in free air: 12.5 N. With more force, the program calls the operator. The
 errors of link masses, mass centres, drive gains and joint friction look like a force on the hand, upwards or
 downwards. We calculated this apparent force for 15 places on the table: it is at most 6.1 N in 400 nominal worlds, and
-at most 8.9 N in worlds of the high level. In these worlds, the base may also weigh 2 N more than the load that the
+at most 8.9 N in worlds of the high level. At the high level, the base may also weigh 2 N more than the load that the
 program declares.
 """
 SWITCH_FORCE: Final = 10 * OUNCE_FORCE

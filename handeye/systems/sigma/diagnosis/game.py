@@ -53,7 +53,7 @@ MEANS: Final = {
         "move along a rail at full speed, then slowly back to the low switch, and look for lost steps",
     ),
     "load": Means("load AXIS", "move slowly against a spring balance, and look for lost steps"),
-    "together": Means("together", "move all axes at once at full speed, and look for lost steps"),
+    "together": Means("together", "move all axes together at full speed, and look for lost steps"),
     "ask": Means("ask NAME", "ask a motor for its step count, or another microcomputer for its self-test"),
     "status": Means("status", "read the status lines of all microcomputers"),
     "swap": Means("swap NAME", "replace a microcomputer with a spare one, and switch the machine off and on"),

@@ -156,7 +156,7 @@ class Screen(Desk):
         self._lines.put(line)
 
     def put_button(self, button: Button | None) -> None:
-        """Tell the session what the user has done on the teach box. None means that the user has put the teach box
+        """Tell the session what the user has done on the teach box. `button` is None if the user has put the teach box
         down.
         """
         if not isinstance(button, Jog):
