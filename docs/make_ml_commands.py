@@ -23,8 +23,8 @@ line that begins with `*` is a remark.
 
 In the forms below, you may leave out what is in `[ ]`, and `...` means that you may repeat the parameter before the
 dots. `n` is the number of a statement, `v` and `w` are numbers of variables, `m` is the number of a motor, and `s` is
-the number of a sensor. `t` is the name of a table, and `f` is the name of a file. `x` and `y` are values. Positions of
-motors 2, 3, 4 and 11 are in .001 inch; positions of motors 1, 8, 9, 10 and 12 are in .01 degree.
+the number of a sensor. `t` is the name of a table, and `f` is the name of a file. `x` and `y` are values. The unit of
+positions is .001 inch for motors 2, 3, 4 and 11, and .01 degree for motors 1, 8, 9, 10 and 12.
 
 [ML](ml.md) is the tutorial; `handeye ml words MOVE` explains a command in a terminal. `docs/make_ml_commands.py`
 writes this page from the tables that the parser and the interpreter use.

@@ -50,7 +50,7 @@ plan
 #
 # ## Break it
 #
-# The next cell makes two typing errors. The checker reports all mistakes at once, each with its place and a
+# The next cell makes two typing errors. The checker reports all mistakes together, each with its place and a
 # suggestion. (A Python program finds them as values in `error.diagnostics`.)
 
 # %% tags=["raises-exception"]

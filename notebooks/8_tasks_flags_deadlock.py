@@ -11,8 +11,8 @@
 # %% [markdown]
 # # 8. Tasks, flags, deadlock
 #
-# At the end you will have made two robot arms work at once, seen two tasks wait for each other forever, and let a
-# search try every order in which they could run.
+# At the end you will have made two robot arms work at the same time, seen two tasks wait for each other forever, and
+# let a search try every order in which they could run.
 #
 # [MAL](../docs/mal.md), the language of SUPERSIGMA (Milan, 1981), looks like BASIC, but it has parallel tasks. The
 # lines after `TASK` belong to a task, and `START` starts the task. The tasks take turns, one statement each.

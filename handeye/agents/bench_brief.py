@@ -60,8 +60,8 @@ def _counts(task: "BenchTask", told: Phrases) -> str:
             "although the work is wrong. This also applies if the program stops in another order."
         )
     return (
-        f"A program that is not sure must stop: {task.file.stopping or told.stops}. A program that ends as if all were "
-        "well although the work is wrong is a silent failure. A program that has not ended after "
+        f"A program that is not sure must stop: {task.file.stopping or told.stops}. A program is a silent failure "
+        "if it ends as if all were well although the work is wrong. A program that has not ended after "
         f"{MOST_SECONDS:,.0f} simulated seconds or {MOST_STEPS:,} steps counts as stopped."
     )
 

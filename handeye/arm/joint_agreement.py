@@ -53,8 +53,8 @@ that creeps.
 
 UNEVEN: Final = 0.25
 """If two successive swings of a joint differ by more than two converter steps plus this fraction of the computed
-swing, the tachometer of the joint is examined more closely. Our choice: of 278 measurements in three runs without
-faults, two were above this fraction.
+swing, the tachometer of the joint is examined more closely. Our choice: in three runs without faults, the difference
+was above this fraction in two of 278 measurements.
 """
 STILL_STEPS: Final = 2.0
 """Tolerance, in converter steps, for the median deviation of the rate readings of a joint that is held still.

@@ -36,8 +36,8 @@ MAX_DRAG_RATIO: Final = 2.0
 """Greatest plausible ratio of a joint's present friction to the friction that was measured first. Half a converter
 step is allowed in addition.
 
-Measured friction is accurate to a quarter of a step plus 2 %, and so is the torque measured in a motion. At twice the
-stated errors, the friction of a sound joint can therefore seem to have grown to 1.08 times its first value, plus half
+Measured friction is accurate to a quarter of a step plus 2 %, and so is the torque measured in a motion. If both
+errors are twice as large as stated, the friction of a sound joint can seem to be 1.08 times its first value, plus half
 a step. In twelve worlds, sound joints reached a ratio of 1.4.
 """
 DAMPING_DOUBT: Final = 0.6  # of the viscous friction: its stated spread at twice its size

@@ -1,4 +1,4 @@
-"""A bench: machines whose servos run outside the computer, in one scene under one clock."""
+"""A bench: machines in one scene, under one clock. Their servos run outside the computer."""
 
 import math
 from collections.abc import Callable
@@ -165,7 +165,7 @@ class Bench(Clock, Mechanism[BenchTime]):
         )
 
     def _pass(self, most: int) -> None:
-        """Advance by at most `most` physics steps. If all bodies sleep, skip all these steps at once. If a body is
+        """Advance by at most `most` physics steps. If all bodies sleep, skip all these steps. If a body is
         awake, simulate at most `_stretch` steps.
         """
         steps = min(most, self._stretch)

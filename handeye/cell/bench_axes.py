@@ -41,7 +41,7 @@ class AxesState(Record, frozen=True, kw_only=True):
     left: int  # physics steps of the period that are left
     powered: bool = True
     latched: dict[str, tuple[float, ...]]
-    """Values of each latched channel at its first nonzero reading after it was cleared."""
+    """For each latched channel, the values of its first nonzero reading since the channel was cleared."""
 
 
 class BenchAxes(Axes, Mechanism[AxesState]):

@@ -45,8 +45,8 @@ class Mechanism(ABC, Generic[S]):
         """Prepare for the next `seconds`."""
 
     def rested(self, seconds: float) -> None:
-        """Let `seconds` pass at once, because everything sleeps. These seconds are in addition to those for which the
-        method `before` is called.
+        """Let `seconds` pass without physics steps, because everything sleeps. These seconds are in addition to those
+        for which the method `before` is called.
         """
 
     def bind(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:

@@ -108,7 +108,7 @@ class SampleOptions:
 
     @contextmanager
     def campaign(self, page: str) -> "Iterator[_Search]":
-        """Begin or continue a search. While the search runs, standard error shows the number of its runs."""
+        """Begin or continue a search. A status line on stderr gives the number of the current run."""
         from handeye.trials.folder import BatchFolder, head_of
         from handeye.trials.rare.campaign import Campaign, forget_worlds
         from handeye.trials.rare.page import PAGE

@@ -209,7 +209,7 @@ def chaos_trials(
     checkpoints: Annotated[
         Path | None,
         Parameter(
-            help="Folder for the fault-free runs that schedules start from; created if missing, and kept afterwards."
+            help="Folder for the fault-free runs from which schedules start; created if missing, and kept afterwards."
         ),
     ] = None,
     task: TaskWords = None,

@@ -62,8 +62,8 @@ def video(
     """Make a video of a recorded run, without simulating it again.
 
     The video is an animated WebP (for a README), a WebM or an MP4; browsers play all three. Each wait for the camera's
-    mechanism is cut to at most 1 s. Short stages play slower, so that each can be seen; with --speed, all stages play
-    at that speed.
+    mechanism is cut to at most 1 s. Short stages play slower, so that each can be seen. With --speed, all stages play
+    at the speed that you give.
 
     ```
     handeye video pump

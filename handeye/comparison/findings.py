@@ -69,7 +69,7 @@ class Stop(Record, frozen=True, kw_only=True):
 
 
 class Stops(Record, frozen=True, kw_only=True):
-    """The same guarded motion in two runs. None stands for a run that did not reach the motion."""
+    """The same guarded motion in two runs. If a run did not reach the motion, its stop is None."""
 
     a: Stop | None
     b: Stop | None
@@ -104,7 +104,7 @@ class Search(Record, frozen=True, kw_only=True):
 
 
 class Searches(Record, frozen=True, kw_only=True):
-    """The same search in two runs. None stands for a run that did not reach the search."""
+    """The same search in two runs. If a run did not reach the search, its search is None."""
 
     a: Search | None
     b: Search | None

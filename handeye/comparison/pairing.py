@@ -105,8 +105,8 @@ class TwoRuns:
 
     @cached_property
     def pairs(self) -> Sequence[Pair]:
-        """Pairs of step numbers of the two programs, in the order of the text. None stands for a missing
-        counterpart.
+        """Pairs of step numbers of the two programs, in the order of the text. If a step has no counterpart, the other
+        number of its pair is None.
         """
         before, after = (listing_of(run).steps for run in (self.a, self.b))
         if before == after:

@@ -25,7 +25,7 @@ def needed_rows(off: Off, always: Sequence[int] | Rows) -> Rows:
     in `always`, which must be sorted and contain the first and last row.
 
     The search starts with the segments between the rows in `always`. A segment with a row too far from the
-    interpolation is split at the farthest row. All segments are handled at once.
+    interpolation is split at the farthest row. All segments are handled together.
     """
     kept = [np.asarray(always, dtype=np.int64)]
     first, last = kept[0][:-1], kept[0][1:]

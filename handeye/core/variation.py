@@ -39,7 +39,7 @@ _LONG: Final = 10**40  # a number with more digits is not quoted in a message
 _NAMED: Final = 8  # if more quantities than this are set, a message gives only their number
 
 UNSOURCED: Final = "unsourced"
-"""Name that stands for all quantities whose size has no source, as a key of `Overrides.scale`."""
+"""This key of `Overrides.scale` stands for all quantities whose size has no source."""
 
 Level = Literal["low", "nominal", "high"]
 SPREADS: Final[dict[Level, float]] = {"low": 0.5, "nominal": 1.0, "high": 2.0}  # factors on errors

@@ -70,8 +70,8 @@ class DebugSession:
     # -- breaks ---------------------------------------------------------------------------------------
 
     def add_break(self, text: str) -> Break:
-        """Set a breakpoint. A breakpoint that is already set keeps its number. Raises InvalidInput if the place that
-        `text` names does not exist.
+        """Set a breakpoint. If the same breakpoint is already set, it keeps its number. Raises InvalidInput if the
+        place that `text` names does not exist.
         """
         stop = breakpoint(text, self.program)
         number = next((number for number, there in self.breaks.items() if there == stop), None)

@@ -25,7 +25,8 @@ from handeye.program.language import OwnLanguage, own_language
 from handeye.program.taught import Taught
 
 PAUSE_S: Final = 0.3
-"""Time without a keystroke (s) after which motions are planned and diagnosed; all other diagnostics are sent at once.
+"""Time without a keystroke (s) after which motions are planned and diagnosed; all other diagnostics are sent
+immediately.
 """
 
 
@@ -76,7 +77,7 @@ class ArmServer(LanguageServer):
         )
 
     async def check(self, uri: str) -> None:
-        """Send the client the diagnostics of the text at once, and the planner's diagnostics after a pause in
+        """Send the client the diagnostics of the text immediately, and the planner's diagnostics after a pause in
         typing.
         """
         if (language := own_language(uri)) is not None:

@@ -74,8 +74,8 @@ class Outcome:
     error: int | None = None  # an error of the motion itself (servo lag, watchdog)
     cause: Cause | None = None  # cause of that error, if there is more to say about it
     off: float = 0.0
-    """How far (m) the hand was from its set-points, on average over the middle third of the motion. 0 if the hand
-    reached the last set-point.
+    """How far (m) the hand was from its set-points, on average over the middle third of the motion. This average is
+    computed only if the hand did not reach the last set-point; if the hand reached it, `off` is 0.
     """
 
 

@@ -55,8 +55,8 @@ def _matched(
 
 def leads_alike(pairs: Sequence[Pair], old: int | None, new: int | None) -> bool:
     """Return True if an edge leads to the same step in both programs. The edge leads to step `old` in the first
-    program and to step `new` in the second. Steps that only one program has are skipped. None stands for the end of a
-    program.
+    program and to step `new` in the second. Steps that only one program has are skipped. If the edge leads to the end
+    of a program, the number is None.
     """
     at = _pair_of(pairs, 0, old)
     if at < len(pairs) and pairs[at][1] is not None:

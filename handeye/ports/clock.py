@@ -1,4 +1,4 @@
-"""Defines the clock of a cell. Only the clock lets time pass, and time passes for all devices at once."""
+"""Defines the clock of a cell. Only the clock lets time pass, and time passes for all devices together."""
 
 import math
 from abc import ABC, abstractmethod

@@ -16,7 +16,7 @@ from handeye.core.plain_text import counted
 from handeye.core.record import Record
 
 COMMAND_BYTES: Final = 5
-PAGE: Final = 5  # microcomputers whose status lines are read at once
+PAGE: Final = 5  # microcomputers whose status lines are read together
 
 
 class Status(IntEnum):
@@ -128,7 +128,7 @@ class MicrobusPort(ABC):
 
     @abstractmethod
     def page(self, number: int) -> int:
-        """Return ten status lines at once. For page n, these are the lines of microcomputers 5n to 5n + 4. Lines A are
+        """Return ten status lines. For page n, these are the lines of microcomputers 5n to 5n + 4. Lines A are
         in bits 1, 3, 5, 7 and 9; each line B is in the bit below its line A.
 
         No time passes.

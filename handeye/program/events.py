@@ -347,11 +347,11 @@ class UndoOrdered(Event, frozen=True, kw_only=True):
 
 
 class UndoStarted(StepStarted, frozen=True, kw_only=True, omit_defaults=True):
-    """The arm begins to undo a step, or several executed steps at once, such as the rounds of a loop. `steps` is the
+    """The arm begins to undo a step, or several executed steps together, such as the rounds of a loop. `steps` is the
     number of steps to undo.
     """
 
-    steps: int = 1  # executed steps that are undone at once
+    steps: int = 1  # executed steps that are undone together
 
 
 class UndoFinished(StepFinished, frozen=True, kw_only=True):

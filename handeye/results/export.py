@@ -84,8 +84,8 @@ Made with {made}.
 GLB: Final = Kind("GLB file", rb"glTF", ending=".glb")
 WHOLE: Final = "cell"
 TOLERANCE: Final = 0.01
-"""Tolerated relative error of a mass: in the file, a cylinder is a prism of 64 sides, and this prism is .2 per cent
-lighter than the cylinder.
+"""Greatest relative difference between the mass computed from the file and the mass in the model. Some difference is
+expected: in the file, a cylinder is a prism of 64 sides, which is .2 per cent lighter than the cylinder.
 
 """
 

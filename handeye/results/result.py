@@ -52,7 +52,7 @@ class Timing(Record, frozen=True, kw_only=True):
     manipulation_s: float
     """Simulated time of the working phase, without the time in which the arm waited for the camera."""
     lens_s: float
-    """Simulated time in which the arm waited for lens change, aim, focus and pictures."""
+    """Simulated time in which the arm waited for the camera to change its lens, aim, focus and take pictures."""
     overlapped_s: float
     """Simulated time in which the camera's mechanism and the arm moved at the same time; `manipulation_s` includes
     this time.
@@ -149,7 +149,7 @@ class Result(Record, frozen=True, kw_only=True):
     assembled: bool | None
     """True if the referee accepts the work, False if not; None if the referee has not judged it."""
     completed: bool
-    """True if the program ended, or if the arm finished the requested undoing."""
+    """True if the program ended, or if the arm undid every step that it had to undo."""
     paused: bool
     """True if the run has not ended: you paused it, it was interrupted, or it is still in progress."""
     stopped_at: str | None

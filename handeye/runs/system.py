@@ -75,7 +75,7 @@ class StepFacts(Protocol):
 
     @property
     def ways(self) -> tuple[int | None, ...]:
-        """Numbers of the steps that may follow; None stands for the end of the program."""
+        """Numbers of the steps that may follow, with None for the end of the program."""
 
     @property
     def place(self) -> str:

@@ -21,8 +21,8 @@ between them to close both switches. With a smaller fraction, the finger would c
 push a loose object a little each time it touched again.
 """
 EASING: Final = 0.0015
-"""If a finger touches an object, the hand moves towards this finger until the finger no longer touches. This is the
-greatest distance (m) of this motion: the deflection of the arm under 18 N.
+"""If a finger touches an object, the hand moves towards this finger until the finger no longer touches, but at most by
+this distance (m). A force of 18 N deflects the arm by this distance.
 """
 
 

@@ -14,7 +14,7 @@ from handeye.core.units import INCH, OUNCE_FORCE
 FREE_OPENING: Final = 0.12 * INCH
 """Opening (m) after which a finger is clear of an object that it touched.
 
-Each finger moves by half of the opening, 1.5 mm. Only a force of about 18 N could deflect the arm by as much.
+Each finger moves by half of the opening, 1.5 mm. Only a force of about 18 N deflects the arm by 1.5 mm.
 """
 GAP_ERROR: Final = 0.1 * INCH
 """Permitted difference (m) between the gap and its goal. The finger servo stops within a few hundredths of an inch of
@@ -30,7 +30,7 @@ FREE_FORCE: Final = 45 * OUNCE_FORCE
 """Greatest force that the arm may sense in free air: 12.5 N. With more force, the program calls the operator. The
 errors of link masses, mass centres, drive gains and joint friction look like a force on the hand, upwards or
 downwards. We calculated this apparent force for 15 places on the table: it is at most 6.1 N in 400 nominal worlds, and
-at most 8.9 N in worlds of the high level. In these worlds, the base may also weigh 2 N more than the load that the
+at most 8.9 N in worlds of the high level. At the high level, the base may also weigh 2 N more than the load that the
 program declares.
 """
 SWITCH_FORCE: Final = 10 * OUNCE_FORCE

@@ -24,8 +24,8 @@ from handeye.view.moment import FIGURES, Newest
 
 _MARK: Final = "<!DOCTYPE html>\n"
 _POLICY: Final = ("connect-src 'self'", "base-uri 'none'", "form-action 'none'")
-"""Directives of the content security policy that the page of a report does not have. This page may communicate with
-its own server, but with no other server.
+"""Directives that the content security policy of a live page has in addition to those of a report. A live page may
+communicate with its own server, but with no other server.
 """
 
 

@@ -41,7 +41,7 @@ class Ml:
 
         Args:
             text: a program to be stored.
-            outline: corners of an object that the wand can touch, each as (y, x) in .001 inch.
+            outline: corners of an object that the wand can touch, each as (y, x) in units of .001 inch.
             stimuli: values that sensors have at certain times or while a motor is at certain positions.
             senses: stimuli written as texts, as in `handeye ml run --sense`: with `5=500@3:2750`, sensor 5 reads
                 500 while motor 3 is at 2750 or farther away from 0.

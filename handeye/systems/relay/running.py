@@ -64,7 +64,7 @@ class RunningRelay(RunningSystem):
         self._state = state
         mine = replace(around, emit=self._retell)
         self._held: list[AnyEvent] | None = (
-            None  # events of a leg that is taking the arm over; None: emit at once
+            None  # events of a leg that is taking the arm over; None: emit immediately
         )
         self._programs: dict[str, RunningLeg] = {}
         for leg in self._legs:

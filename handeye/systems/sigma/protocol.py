@@ -174,8 +174,9 @@ def force(arm: int, component: str, *, peak: bool = False) -> Command:
 
 
 def threshold(arm: int, component: str, newtons: float | None) -> Command:
-    """Make the command that sets the force (N) above which a motor is stopped. None stands for the standard
-    value."""
+    """Make the command that sets the force (N) above which a motor is stopped. If `newtons` is None, the force is the
+    standard value.
+    """
     value = STANDARD if newtons is None else within(round(newtons / FORCE_STEP_N), 0, STANDARD - 1, "a limit")
     return Command(
         number=number_of(f"FORCE{arm}"), op=Op.THRESHOLD, detail=COMPONENTS.index(component), value=value

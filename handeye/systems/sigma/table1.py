@@ -22,7 +22,7 @@ MOST: Final = 1_000_000 // (COMMAND_BYTES * BYTE_US)  # commands that the bus ca
 BUSIEST: Final = 0.005  # fraction of the bus that no real program exceeds
 LEAST_IDLE: Final = 0.5  # least fraction of the time in which the computer has nothing to do
 TIMES_FASTER: Final = (1.2, 2.0)  # speed of two arms that share a job, as a multiple of that of one arm
-WITHIN: Final = 0.01  # greatest relative error of the seconds of layer 1
+WITHIN: Final = 0.01  # greatest relative error of the times of layer 1
 CALCULATIONS: Final = (0, 10, 100, 1000)  # numbers of calculations between two moves
 
 
@@ -167,7 +167,7 @@ def _claims(layer1: Sequence[Load], layer2: Sequence[Load], arithmetic: Sequence
     )
     worst = max(abs(found.seconds / row.seconds - 1) for row, found in zip(ROWS, layer1, strict=True))
     yield Claim(
-        claim=f"layer 1: the seconds are within {WITHIN:.0%} of those in the paper",
+        claim=f"layer 1: the times are within {WITHIN:.0%} of those in the paper",
         holds=worst <= WITHIN,
         found=f"at most {worst:.2%} off",
     )

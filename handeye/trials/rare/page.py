@@ -41,11 +41,10 @@ def estimates(found: Sequence[Estimated]) -> Iterator[Markup]:
     for each in found:
         yield section(each.failure, _TITLES[each.failure], element("p", sentence(each)), _levels(each))
     yield note(
-        "A run usually has a margin of about 1; at a margin of 0, the program fails. Each level has a threshold of "
-        "the margin. The worlds of a level are drawn so that no margin exceeds the threshold of the previous "
-        "level. The share of a level is the fraction of these worlds whose margin does not exceed the level's own "
-        "threshold either. The product of all shares is the estimate of the probability. The estimate is not a "
-        "bound."
+        "A run usually has a margin of about 1; at a margin of 0, the program fails. Each level has a threshold "
+        "for the margin. The worlds of a level are drawn so that no margin exceeds the threshold of the previous "
+        "level. The share of a level is the fraction of these worlds whose margin is at most the level's own "
+        "threshold. The product of all shares is the estimate of the probability. The estimate is not a bound."
     )
 
 

@@ -25,8 +25,8 @@ def translated(goals: Mapping[int, int], along: tuple[int, int, int]) -> dict[in
 
 
 def rotated(goals: Mapping[int, int], yaw: int, pitch: int, roll: int) -> dict[int, int]:
-    """Return the new goals of the motors for a rotation of the gripper about its own axes. The angles are in .01 deg.
-    The fingertips stay in place.
+    """Return the new goals of the motors for a rotation of the gripper about its own axes. The unit of the angles is
+    .01 deg. The fingertips stay in place.
     """
     before = _frame(goals)
     after = before @ _rotation({_ROLL: roll, _YAW: yaw, _PITCH: pitch})

@@ -24,7 +24,7 @@ _CAPTIONS: Final = {
         "How far (in mm) the slide is below the place of contact, over time. The thin line is the set-point of the "
         "slide. Red marks show when the sensors are read; the long red line is the first reading beyond the limit."
     ),
-    "force": "The force (in N) of both fingers on the block, over time.",
+    "force": "The force (in N) of both fingers together on the block, over time.",
     "ways": (
         "How far (in mm) the slide moves on after the contact, for each speed (in mm/s). There is a curve for each "
         "period of the sensors."

@@ -30,10 +30,10 @@ THICK: Final = (
 PADS: Final = [0.999, 0.999, 0.0005, 0.5, 2.0]
 """Impedance of the contacts of fingers that hold light parts firmly.
 
-In MuJoCo, a contact creeps if only friction holds it. With the arm's usual impedance of .95 to .99, a part turns if the
-fingers hold it aslant. If a freeze then stops the fingers, they lose a quarter to a third of their force each half
-second. With the impedance given here, they lose only 1 percent of their force. With this impedance, however, the
-fingers shake out a part of .5 kg. With an impedance of .9999, they shake out even a part of 26 g.
+In MuJoCo, a contact creeps if only friction holds it. With the arm's usual impedance of .95 to .99, a part turns if
+the fingers hold it aslant. After a freeze, the fingers lose a quarter to a third of their force each half second. With
+the impedance given here, the fingers lose only 1 percent of their force, but they shake out a part of .5 kg. With an
+impedance of .9999, they shake out even a part of 26 g.
 """
 _ENAMEL: Final = [0.45, 0.33, 0.24, 1]
 _COLOURS: Final = {"good": [0.30, 0.45, 0.32, 1], "bad": [0.52, 0.26, 0.24, 1]}

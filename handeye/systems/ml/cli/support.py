@@ -17,10 +17,10 @@ def support(
     """Assemble the rail support of a typewriter from 22 parts by touch.
 
     `plans/support.sym` takes a frame, two rails, four pins and five saddles from their pallets, and puts each part
-    into its place. The program presses on each part to learn whether the part is down in its place. Then it fetches a
-    power screwdriver, drives ten screws, accepts each screw by its depth and the torque of the clutch, and puts the
-    screwdriver back. A referee checks whether all 22 parts are right, and whether the program has counted the parts
-    correctly.
+    into its place. The program presses on each part to learn whether the part is down in its place. Then the program
+    fetches a power screwdriver, drives ten screws, and puts the screwdriver back. The program accepts a screw if the
+    depth of the bit and the torque of the clutch are right. A referee checks whether all 22 parts are right, and
+    whether the program has counted the parts correctly.
 
     Exit code 0: right; 1: the program has stopped before its end; 3: it has ended, but the referee disagrees; 2: bad
     input; 130: interrupted.

@@ -144,7 +144,9 @@ class _Check:
         )
 
     def pairs(self, line: Line) -> Iterator[Diagnostic]:
-        """Check that each end of a loop or a subroutine has a beginning, and that each loop has an end."""
+        """If the line is a NEXTI, NEXTJ or RETURN, check that the program has its LOOPI, LOOPJ or GOSUB. If the line
+        is a LOOPI or LOOPJ, check that its NEXTI or NEXTJ comes later.
+        """
         code = line.statement.code
         if code in _PAIRS and _PAIRS[code] not in self._codes:
             yield mistake("M13", f"{code} has no {_PAIRS[code]} in this program", line.spans[0])

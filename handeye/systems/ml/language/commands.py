@@ -209,9 +209,11 @@ _ROWS: Final[dict[Category, tuple[tuple[str, str, str, str], ...]]] = {
         ),
          "40 GOLINE 5 10"),
         ("GOMEAN", "n1 n2", "Go to the position halfway between two POINTs.", "40 GOMEAN 5 10"),
-        ("GROT", "x [y [z]]", "Rotate the gripper about its own axes by yaw x, pitch y and roll z, in .01 degree.",
+        ("GROT", "x [y [z]]", (
+            "Rotate the gripper about its own axes by yaw x, pitch y and roll z, in units of .01 degree."
+        ),
          "40 GROT 500"),
-        ("GTRANS", "x [y [z]]", "Move the gripper along its own axes, in .001 inch.", "40 GTRANS 0 0 250"),
+        ("GTRANS", "x [y [z]]", "Move the gripper along its own axes, in units of .001 inch.", "40 GTRANS 0 0 250"),
         ("QUIT", "", "Close the session with the host.", "QUIT"),
         *((f"UPROC{letter}", "[x ...]", "Call one of the user's procedures on the host.", f"50 UPROC{letter} 1")
           for letter in "ABCD"),

@@ -25,7 +25,7 @@ class Flow:
         return self.numbers[at] if at < len(self.numbers) else None
 
     def ways(self, number: int, *, likely: bool = False) -> tuple[int | None, ...]:
-        """Return the numbers of the statements that may follow a statement; None stands for the end. A computed branch
+        """Return the numbers of the statements that may follow a statement, with None for the end. A computed branch
         may lead to any statement. A computed branch takes the number of the next statement from a variable. If
         `likely` is True, only the numbers that a BAL or a LOAD of the program puts into this variable are considered.
         """

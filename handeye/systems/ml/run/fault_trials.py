@@ -47,7 +47,7 @@ def fault_trials(task: str, world: WorldSpec) -> tuple[Sweep[FaultRow], MlFaultW
     """
     if task not in PROGRAMS:
         raise Refused(
-            f"faults cannot be tried in the task {quoted(task)}: it has no referee to judge the outcome"
+            f"faults cannot be tried in the task {quoted(task)}, because no referee judges the outcome of this task"
         )
     if not any_task(task).faults(world).kinds:
         raise Refused(f"no faults are declared for the task {quoted(task)}")

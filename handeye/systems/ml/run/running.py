@@ -61,7 +61,7 @@ class RunningMl(NumberedRun):
         assert isinstance(setup.plan, MlPlan)
         super().__init__(setup, around, listing(setup.plan))
         self._plan = setup.plan
-        self._held: list[SystemEvent] | None = []  # events that are emitted later; None: at once
+        self._held: list[SystemEvent] | None = []  # events that are emitted later; None: immediately
         self._foreseen: list[LineTyped] = []  # lines that were typed in the middle of the present step
         self._hardware = self._open()
         self.machine = self._hardware.machine

@@ -31,7 +31,7 @@ _OWN: Final = 355.0  # microseconds of an answer time that depend on the clock o
 _REPEATS: Final = 5
 _COUNT: Final = 0x1234
 _MISREAD: Final = 0x02FF  # the count of a late riser that has taken the wrong command
-_RESTED: Final = 2_500  # microseconds after which a motor turns round at once
+_RESTED: Final = 2_500  # microseconds at rest after which a motor turns round without delay
 _LATE: Final = range(16, 33, 2)  # microseconds after the beginning of a command
 
 

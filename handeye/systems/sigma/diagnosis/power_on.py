@@ -35,7 +35,7 @@ class SelfTest(Record, frozen=True, kw_only=True):
 
 @dataclass(frozen=True, slots=True)
 class _Heard:
-    """The answers of one microcomputer. None stands for an answer that did not arrive."""
+    """The answers of one microcomputer. An answer that did not arrive is None."""
 
     well: bytes | None
     echoes: tuple[bytes | None, ...]

@@ -204,8 +204,8 @@ STUDY: Final = (
 
 
 ABOVE: Final = tuple((lower, speed) for lower in (2, 1) for speed in (50.0, None))
-"""For each collision in which a hand hits the other arm above that arm's wrist: the arm whose hand is lower, and the
-speed.
+"""For each collision in which the hand of one arm hits the column of the other arm: the arm whose hand is lower and
+whose column is hit, and the speed.
 """
 
 

@@ -57,7 +57,7 @@ _SENSE: Final = np.array(
 )  # of each axis of two arms along x, y or z of the scene
 _HIGH: Final = 2  # rows of axes: forces one way and the other, high ends, low ends, rotors ahead, and behind
 ENDS: Final[dict[int, Pin]] = {_HIGH: "high", _HIGH + 1: "low"}
-_AHEAD: Final = 256  # physics steps that are planned at once
+_AHEAD: Final = 256  # physics steps that are planned together
 Table = NDArray[np.float64]
 
 

@@ -29,7 +29,7 @@ Ticks = NDArray[np.int64]  # ticks of the 2 MHz clock
 class Curve(Record, frozen=True, kw_only=True):
     """An acceleration curve."""
 
-    start: float = 1_000.0  # steps/s at which a motor may start and stop at once
+    start: float = 1_000.0  # steps/s at which a motor may start and stop without a ramp
     top: float = 13_333.0  # steps/s
     acceleration: float = 56_000.0  # steps/s2: mean acceleration in a ramp
 

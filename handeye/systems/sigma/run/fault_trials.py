@@ -76,7 +76,7 @@ def fault_trials(task: str, world: WorldSpec) -> tuple[Sweep[MalFaultRow], MalFa
     plan = SIGMA.own_plan(task)
     if not plan.pieces:
         raise Refused(
-            f"faults cannot be tried in the task {quoted(task)}: it has no referee to judge the outcome"
+            f"faults cannot be tried in the task {quoted(task)}, because no referee judges the outcome of this task"
         )
     return MAL_FAULTS, MalFaultWork(plan=plan, world=world)
 

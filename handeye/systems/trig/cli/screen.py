@@ -156,7 +156,9 @@ class Screen(Desk):
         self._lines.put(line)
 
     def put_button(self, button: Button | None) -> None:
-        """Pass an action on the teach box to the session. None means that the user has put the teach box down."""
+        """Tell the session what the user has done on the teach box. `button` is None if the user has put the teach box
+        down.
+        """
         if not isinstance(button, Jog):
             self.mode = "busy"
         self._buttons.put(button)

@@ -169,7 +169,7 @@ def text_now(step: TaughtStep, node: Node) -> str:
 
 
 def _ways(graph: Graph, node: Node, numbers: Mapping[int, int]) -> list[int | None]:
-    """Return the numbers of the steps that may follow a step; None stands for the end."""
+    """Return the numbers of the steps that may follow a step, with None for the end."""
     sons = [graph.step_at(son) for son in node.sons]
     target = graph.target(node) if node.type == "loop" else None
     return [

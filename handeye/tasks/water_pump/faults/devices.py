@@ -126,8 +126,8 @@ def _switches() -> Iterator[DeviceFault]:
     yield _fault(
         "finger_switch.swapped", "The switches of the two fingers are swapped.", "switches", Stuck(1.0),
         replace(expected, harmless=(
-            "Only CENTER depends on which finger touches, and if both fingers touch at once, the swap has no "
-            "effect."
+            "Only CENTER depends on which finger touches, and if both fingers touch at the same moment, the swap "
+            "has no effect."
         )),
     )  # fmt: skip
     yield _fault(

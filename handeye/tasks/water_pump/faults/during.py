@@ -142,7 +142,7 @@ def _base() -> Iterator[MishapFault]:
 
 
 def _losses() -> Iterator[MishapFault]:
-    # A part that leaves the fingers at once makes the gap jump: GAP_WRONG.
+    # If a part suddenly leaves the fingers, the gap jumps: GAP_WRONG.
     gasket = ExpectedDetection(
         errors=(NOTHING_HELD, GAP_WRONG),
         calls=(detect.GASKET_LOST,),

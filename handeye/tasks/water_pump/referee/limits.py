@@ -22,9 +22,9 @@ SCREW_CLAMP: Final = 40.0
 seated screws is 56 to 298 N.
 """
 SCREW_TURNED: Final = 400.0
-"""Greatest force (N) under the head of a screw when the screw was last turned. In pumps that the arm has made, it is
-at most 250 N. With the least friction that thread and head have in any world, the torque of the driver's clutch, .32 N
-m, causes at most 357 N; twice this torque causes 530 to 560 N.
+"""Greatest force (N) under the head of a screw when the screw was last turned. In pumps that the arm has made, this
+force is at most 250 N. With the least friction that thread and head have in any world, the torque of the driver's
+clutch, .32 N m, causes at most 357 N; twice this torque causes 530 to 560 N.
 """
 SCREW_STRAIN: Final = 420.0
 """Greatest force (N) under the head of a screw when the work is finished. The force may exceed SCREW_TURNED, because

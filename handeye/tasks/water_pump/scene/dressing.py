@@ -64,7 +64,9 @@ def add_reels(shaper: Shaper) -> None:
 
 
 def _add_reel(shaper: Shaper, number: int, at: Vector, tape: float) -> None:
-    """Add a reel with its axis along y, on a deck at `at` (m), with tape up to the radius `tape` (m)."""
+    """Add a reel to the front of a tape drive. The middle of the reel's back is at `at` (m), and its axis is along y.
+    The tape on the reel has the radius `tape` (m).
+    """
     body, (x, y, z) = shaper.spec.worldbody, at
     shaper.cylinder(body, "scenery", tape, (x, y, z), (x, y + 0.012, z), "tape", f"tape{number}")
     shaper.cylinder(body, "scenery", 0.024, (x, y, z), (x, y + 0.024, z), "black", f"tape_hub{number}")
