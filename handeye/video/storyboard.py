@@ -29,7 +29,8 @@ _CLOSE, _WIDE = 0.4, 0.6  # Distance of the camera from the hand's work: least, 
 _AROUND: Final = 0.15  # m; points closer together than this belong to one place of work
 _AMID: Final = np.array([0.5, 0.5, -0.1])
 """Point at which the view is aimed. Each coordinate is a fraction of the hand's range, measured from the lower corner
-of the range. The point is slightly below the middle of the range, because the hand works near the table.
+of the range. The point lies under the middle of the range, a tenth of its height below its lowest place, because the
+hand works near the table.
 """
 _STILL_M: Final = 0.05
 _GLIDE: Final = 0.9  # s between the views of two stages
