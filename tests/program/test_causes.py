@@ -198,9 +198,9 @@ WORDS: list[tuple[c.Cause, str]] = [
         "3.3 are needed; check camera and light",
     ),
     (
-        c.DarkPart(brightness=4.93, least=6.7),
-        "the part is too dark in the earlier picture to compare: its median is 4.9 grey levels, but at least 6.7 are "
-        "needed; does a shadow lie on it?",
+        c.DarkPart(brightness=4.93, least=7.6),
+        "the part is too dark in the earlier picture to compare: its brightness is 4.9 grey levels, but at least 7.6 "
+        "are needed; does a shadow lie on it?",
     ),
     (c.NoHoles(blobs=0), "found no hole: is the picture in focus, and is the part in it?"),
     (

@@ -2,11 +2,13 @@
 
 import numpy as np
 import pytest
+from msgspec import structs
 from synthetic import FINE, HOLE, PLATE, Canvas, draw_base, part, view
 
 from handeye.core.units import DEGREE, INCH
 from handeye.program.diagnosis.causes import DarkPart, FaintPicture, OutsidePicture, PartAstray
 from handeye.vision.base import Failure, PartMatch
+from handeye.vision.hole_search import hole_places
 from handeye.vision.matching import DARK, FAINT, MOVED, match
 
 PART = part(180 * DEGREE)
@@ -130,6 +132,19 @@ def test_a_part_in_a_shadow_too_deep_to_show_a_missing_head_is_no_match() -> Non
     )  # though the pictures look alike
     assert isinstance(seen.cause, DarkPart)
     assert seen.cause.brightness < seen.cause.least == DARK
+
+
+def test_dark_sides_do_not_count_if_the_screw_holes_are_known() -> None:
+    holes = WHERE.project(hole_places(PART, POSE, screws=True))
+    (left, top), (right, bottom) = (holes.min(axis=0) - 4).astype(int), (holes.max(axis=0) + 5).astype(int)
+    face = np.s_[top:bottom, left:right]
+    before, after = np.array(picture(1, head=4) * 0.4, np.uint8), np.array(picture(2, head=4) * 0.4, np.uint8)
+    before[face], after[face] = picture(1, head=4)[face], picture(2, head=4)[face]
+    assert isinstance(found := match(before, after, WHERE, PART, POSE), PartMatch)
+    assert found.ok
+    plain = structs.replace(PART, screw_holes=())
+    assert isinstance(seen := match(before, after, WHERE, plain, POSE), Failure)
+    assert isinstance(seen.cause, DarkPart)
 
 
 def test_a_part_that_is_not_wholly_in_the_picture_cannot_be_matched() -> None:

@@ -177,7 +177,7 @@ def _not_found(cause: c.SightCause) -> str:
             )
         case c.DarkPart():
             return (
-                f"the part is too dark in the earlier picture to compare: its median is {cause.brightness:.1f} "
+                f"the part is too dark in the earlier picture to compare: its brightness is {cause.brightness:.1f} "
                 f"grey levels, but at least {cause.least:.1f} are needed; does a shadow lie on it?"
             )
         case c.NoHoles(blobs=0):

@@ -171,7 +171,7 @@ class DarkPart(CauseRecord, frozen=True, kw_only=True):
     numbers are in grey levels.
     """
 
-    brightness: float
+    brightness: float  # the median near the screw holes
     least: float
 
 
