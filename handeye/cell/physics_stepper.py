@@ -25,6 +25,12 @@ of a hole, and overloaded friction lifts it off for one short step. In this step
 mm into the corner, where it overlaps several faces at once. The simulator then pushes the finger out with thousands of
 newtons, and so throws the part about in the hand. In fine steps, the finger only slides.
 
+Fine steps are also made when fingers are too fast for their servo: its damping alone would then exceed the force limit
+of the motor. MuJoCo applies a force limit at the beginning of a step, and leaves the damping of a motor at its limit
+out of the implicit integration. The motor therefore brakes with its full force during a whole step. With 20 N, one long
+step is enough to reverse the fingers, and with 80 N, one short step. Each later step would reverse them again, so the
+fingers would swing for ever. In fine steps, they come to rest.
+
 Euler's method moves the joints, and with them the hand, along an arc. It moves a free body along the tangent. For a
 free body, Euler's method thus leaves out the second-order term of the motion: half the acceleration times the square
 of the step. After long steps this term is therefore added to carried bodies; it is a few micrometres in a servo
@@ -167,6 +173,9 @@ class PhysicsStepper:
         self._resting = span(np.array([model.joint(name).dofadr[0] for name in resting], dtype=np.intp))
         touch = model.sensor_type == int(mujoco.mjtSensor.mjSENS_TOUCH)
         self._pads, self._felt = model.sensor_adr[touch].tolist(), data.sensordata  # forces on finger pads
+        tendons = model.actuator_trntype == int(mujoco.mjtTrn.mjTRN_TENDON)  # their lengths are the gaps
+        self._finger_motors = np.flatnonzero(tendons & (model.actuator_forcelimited != 0)).tolist()
+        self._drives = (data.actuator_velocity, model.actuator_biasprm, model.actuator_forcerange)
         roots = [(int(body), int(model.body_jntadr[body])) for body in model.tree_bodyadr]
         self._free = [(body, int(model.jnt_qposadr[joint])) for body, joint in roots]  # of each tree
         self._bends = np.zeros((2, 3, model.nv))
@@ -195,16 +204,31 @@ class PhysicsStepper:
 
     def step(self, steps: int) -> None:
         """Advance by `steps` short steps, or by longer steps that cover the same time. If the computation diverges,
-        or a finger is crushed, the time is covered again in *fine* steps, which are shorter than short steps.
+        a finger is crushed, or fingers are too fast for their servo, the time is covered again in *fine* steps, which
+        are shorter than short steps.
         """
         mujoco.mj_getState(self._model, self._data, self._before, _WHOLE_STATE)
         broken = self._warned()
         self._advance(steps)
-        if (self._warned() or self._crushed()) and not broken:
+        if (self._warned() or self._too_coarse()) and not broken:
             self._again(steps)
 
     def _warned(self) -> bool:
         return any(self._warnings.tolist())
+
+    def _too_coarse(self) -> bool:
+        """Return True if the last step was too long for the fingers."""
+        return self._crushed() or self._overspeed()
+
+    def _overspeed(self) -> bool:
+        """Return True if, at the beginning of the last step, fingers moved so fast that the damping of their servo
+        alone exceeded the force limit of their motor.
+        """
+        rates, gains, forces = self._drives
+        return any(
+            abs(rates.item(motor) * gains.item(motor, 2)) > forces.item(motor, 1)
+            for motor in self._finger_motors
+        )
 
     def _crushed(self) -> bool:
         """Return True if the force on a finger pad was greater than `CRUSHING` in the last step."""
@@ -218,7 +242,7 @@ class PhysicsStepper:
             done = not (steps % MIDDLE or touching.delicate) and self._midway(steps, touching.of_hand)
         for _ in range(0 if done else steps):
             self._closely(1)
-            if self._crushed():
+            if self._too_coarse():
                 return
 
     def _closely(self, steps: int) -> None:
@@ -299,7 +323,7 @@ class PhysicsStepper:
         at_the_end: Callable[[], bool] = lambda: True,
     ) -> bool:
         """Replace `steps` short steps by fewer long steps. A long step is `times` times as long as a short step. If
-        the contacts of a step are not allowed, undo all steps and return False.
+        the contacts of a step are not allowed, or fingers are too fast, undo all steps and return False.
         """
         model, data, began = self._model, self._data, self._data.time
         for kept, values in zip(self._kept, self._moves, strict=True):
@@ -309,7 +333,7 @@ class PhysicsStepper:
         try:
             for _ in range(steps // times):
                 mujoco.mj_step(model, data)  # its contacts are those at its beginning
-                if not allowed():
+                if self._overspeed() or not allowed():
                     done = False
                     break
             else:
