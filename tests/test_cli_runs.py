@@ -643,7 +643,8 @@ def test_a_run_comes_out_the_same_again(command: Command, folder: Path) -> None:
             "same"),
         (Repetition(parts="B"), 1, "it does not repeat, on another kind of processor: B"),
         (Repetition(parts="B", rounded="A"), 1, (
-            "numbers differ only by rounding, which depends on the kind of processor; the first difference: A"
+            "numbers differ only by rounding, which depends on the kind of processor; "
+            "the first difference by rounding: A"
         )),
     ],
 )  # fmt: skip

@@ -39,7 +39,9 @@ def carried_out(
     cell.hand.thickness = lambda _: thickness(cell)
     run = ExecutionContext(plan=plan, arm=arm, cell=cell.devices, camera=None, emit=lambda _: None)
     run.drive.watch = lambda period: periods.append(period.sensed)
-    Executor(run=run).step()
+    executor = Executor(run=run)
+    executor.step()
+    executor.finish()
     return cell, periods
 
 

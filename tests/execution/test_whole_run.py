@@ -14,6 +14,7 @@ from running_notebooks import SCRIPTS, runs_to_its_end
 from whole_runs import STAGES, Whole, whole_in
 
 from handeye.core.errors import NO_FORCE
+from handeye.execution.drive import STANDS
 from handeye.program.events import (
     AnyEvent,
     ErrorRaised,
@@ -69,7 +70,9 @@ def test_row_55_every_screw_ends_by_torque(whole: Whole, stage: str, screws: int
 def test_row_55_two_pins_go_in_and_two_come_out(whole: Whole, stage: str) -> None:
     texts = [e.text for e in whole.during(stage) if isinstance(e, StepStarted)]
     places = {m[1] for text in texts if (m := re.match(r"MOVE\s+([PTQ]\d)(?:UP)?\b", text))}
-    assert places == ({"P1", "P2", "T1", "T2"} if stage.startswith("insert") else {"P1", "P2", "Q1", "Q2"})
+    assert places == (
+        {"P1", "P2", "T1", "T2", "Q2"} if stage.startswith("insert") else {"P1", "P2", "Q1", "Q2"}
+    )
 
 
 def test_row_55_the_rotor_is_turned_without_resistance(whole: Whole) -> None:
@@ -105,7 +108,8 @@ def test_row_22_after_the_first_hole_the_others_need_one_more_try_at_most(whole:
 @pytest.mark.row(58, drawn=1)
 def test_row_58_the_times_of_the_stages_and_of_the_lens_add_up(whole: Whole) -> None:
     result, timing = whole.result, whole.result.timing
-    assert sum(stage.arm_s for stage in result.stages) == pytest.approx(timing.manipulation_s, abs=0.1)
+    stages = sum(stage.arm_s for stage in result.stages)
+    assert stages + STANDS == pytest.approx(timing.manipulation_s, abs=0.1)
     assert whole.lens() == pytest.approx(timing.lens_s, abs=0.01)
     assert timing.working_s == pytest.approx(timing.manipulation_s + timing.lens_s, abs=0.01)
 

@@ -53,9 +53,9 @@ def shift(X: Pose, Y: Pose) -> tuple[float, float]:
     return float(np.linalg.norm(X[:3, 3] - Y[:3, 3])), float(np.degrees(np.arccos(np.clip(cosine, -1, 1))))
 
 
-def standard_base() -> Bench:
+def standard_base(world: PumpWorld | None = None) -> Bench:
     """A bench with the base in its standard position."""
-    bench = Bench()
+    bench = Bench(world)
     x, y = dimensions().all("standard.place")
     bench.put("base", planar(x, y, 0.0, dimensions()("standard.yaw")))
     return bench

@@ -86,9 +86,10 @@ def test_the_nose_of_a_pin_meets_metal_wherever_the_face_of_the_casting_is_drawn
     assert entered == []
 
 
-def test_every_tapped_hole_is_free_for_the_nose_of_a_pin():
-    bench = standard_base()
-    for x, y in screw_holes():
+@pytest.mark.parametrize("screws", [6, 7])
+def test_every_tapped_hole_is_free_for_the_nose_of_a_pin(screws: int):
+    bench = standard_base(PumpWorld.nominal(screws))
+    for x, y in screw_holes(screws):
         bench.put("pin0", standard() @ planar(x, y, base_top() + 0.001, 0.0))
         assert not meets_the_base(bench, "pin0")
 

@@ -83,8 +83,9 @@ def add_metal_beside_holes(shaper: Shaper, body: mujoco.MjsBody, holes: Sequence
     direction, reach = d("base.casting.ear_direction"), d("base.casting.ear_radius")
     x, y = reach * math.cos(direction), reach * math.sin(direction)
     shaper.cylinder(body, "tap", d("base.casting.ear_diameter") / 2, (x, y, floor), (x, y, top))
-    x0, y0, x1, y1 = d.all("base.casting.spout")
-    shaper.box(body, "tap", (x0, y0, floor), (x1, y1, top))
+    x0, y0, x1, _ = d.all("base.casting.spout")
+    edge = -math.sqrt(first.outer**2 - x1**2)  # where the sides of the spout leave the first wall
+    shaper.box(body, "tap", (x0, y0, floor), (x1, edge, top))
 
 
 def _walls(d: Dimensions, holes: Sequence[Point]) -> tuple[_Wall, _Wall]:
