@@ -193,7 +193,10 @@ def test_a_break_that_lies_behind_the_start_is_told(command: Command, planned: P
     code, _, err = command(
         "run", planned(JAWS), "--stage", "2", "--break", "to and fro", "--checkpoints", "kept"
     )
-    assert (code, "the run never reaches to and fro from where it starts" in err) == (0, True)
+    assert (code, "the run never reaches to and fro from the step at which the run begins" in err) == (
+        0,
+        True,
+    )
 
 
 def test_a_step_that_lies_behind_the_start_is_no_place_to_stop(command: Command, planned: Planned) -> None:
@@ -201,7 +204,7 @@ def test_a_step_that_lies_behind_the_start_is_no_place_to_stop(command: Command,
     assert command("run", plan, "--to", "1", "--checkpoints", "kept")[0] == 0
     code, out, err = command("run", plan, "--from", "2", "--until", "TO", "--checkpoints", "kept")
     assert (code, out) == (2, "")
-    assert "the run never reaches step 1 from where it starts" in err
+    assert "the run never reaches step 1 from the step at which the run begins" in err
 
 
 def test_the_referee_looks_at_what_is_gone_on_with_if_it_was_to_look_at_the_run(

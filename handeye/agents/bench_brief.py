@@ -55,9 +55,9 @@ def end_of_brief(task: "BenchTask", own: str) -> str:
 def _counts(task: "BenchTask", told: Phrases) -> str:
     if task.file.orders:
         return (
-            "If a program stops in at least one order of its tasks, for example in a deadlock, it counts as "
-            "stopped. A program is a silent failure if, in at least one order, it ends as if all were well "
-            "although the work is wrong. This also applies if the program stops in another order."
+            "A program is a silent failure if, in at least one order of its tasks, it ends as if all were well "
+            "although the work is wrong; it is then a silent failure even if it stops in another order. Any other "
+            "program that stops in at least one order, for example in a deadlock, counts as stopped."
         )
     return (
         f"A program that is not sure must stop: {task.file.stopping or told.stops}. A program is a silent failure "

@@ -59,7 +59,9 @@ class Body(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
         return found
 
     def _place(self, truth: Truth) -> Array:
-        """Return the position of the body in its frame (m, shape (3,))."""
+        """Return the position of the body (m, shape (3,)), in the frame of the body `frame` or, without `frame`, in
+        the world frame.
+        """
         at = np.array(truth.data.body(self.name).xpos)
         if not self.frame:
             return at

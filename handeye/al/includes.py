@@ -128,8 +128,8 @@ class Requirements:
         self.reading = [own_key(self.source)]
 
     def find(self, file: Text) -> Source | Diagnostic | None:
-        """Return the text to read next, or a diagnostic. Returns None if an earlier diagnostic has already reported
-        too many required texts.
+        """Return the text to read next, or a diagnostic. Returns None if the required texts are too many or too long,
+        and an earlier diagnostic has already reported this.
         """
         key = key_of(file.text, self.reading[-1])
         found = self.texts.get(key)

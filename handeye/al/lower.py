@@ -225,8 +225,9 @@ class _Lowerer:
         )  # fmt: skip
 
     def fits(self, modifier: ExpandedStatement, first: ExpandedStatement, motion: Statement) -> bool:
-        """Return True if a modifier can modify this kind of motion, and if `first`, the first modifier of this kind,
-        is the same modifier. Reports a problem if the result is False.
+        """Return True if a motion can have `modifier`, and if no earlier modifier of the same kind precedes it.
+        `first` is the first modifier of that kind: `modifier` itself, if none precedes it. Reports a problem if the
+        result is False.
         """
         word = _word(modifier)
         assert motion.word is not None

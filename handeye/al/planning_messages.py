@@ -241,8 +241,8 @@ class _Phrases:
         return next((span for span in found if span is not None), self.word_span(number))
 
     def modifier_span(self, number: int, word: str) -> Span:
-        """Return the span of a modifier. If the statement does not have this modifier, as with `PLACE`, return the
-        span of the statement's word.
+        """Return the span of a modifier. If the statement does not contain this modifier (`PLACE`, for example,
+        contains no `STOP`), return the span of the statement's word.
         """
         found = (self.find(words, word) for words in self.program.steps[number].modifiers)
         return next((span for span in found if span is not None), self.word_span(number))

@@ -90,7 +90,9 @@ def _periods(seconds: object, period: float) -> int:
 
 
 def _checked(name: str, controller: Controller, runner: Runner) -> Callable[[Sensed], CommandedPeriod | None]:
-    """Wrap a controller. Each command is checked, and a value that is None is replaced by the previous value."""
+    """Wrap a controller. Each command is checked. If `gap`, `grip`, `driver` or `magnet` is None, it gets its previous
+    value; a `torque` of None stays None, because it sets the brakes.
+    """
     joints, last = len(runner.context.arm.joints), runner.context.drive.state
 
     def command(sensed: Sensed) -> CommandedPeriod | None:

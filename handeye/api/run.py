@@ -245,7 +245,7 @@ class Run:
             return self.state
         try:
             if not is_ahead(begins, self._runner.checkpoint()):
-                raise BadArgument(f"the run never reaches “{name}” from where it starts")
+                raise BadArgument(f"the run never reaches “{name}” from the step at which the run begins")
             state = self._go([begins])
             if not begins.met_before(self._runner):
                 raise Refused(f"the run stopped before “{name}”: {state.why}")

@@ -32,8 +32,8 @@ from handeye.program.guards import HandLoad
 
 UNKNOWN: Final = 0.02  # of measured friction, in addition to a quarter of a converter step
 PEAK: Final = 4.0
-"""Margin of a guard, in standard deviations of the force or moment that is sensed in a single servo period. In one
-servo period of 30,000, the noise exceeds this margin.
+"""Margin of a guard, in standard deviations of the force or moment that is sensed in a single servo period. In one of
+30,000 servo periods, the noise exceeds this margin.
 """
 
 

@@ -175,8 +175,8 @@ class JointAgreement:
     def begin_anew(self, q: Array, qd: Array) -> None:
         """Start the comparison again from these readings. The servo does this while a running tool shakes the arm.
 
-        A tool may shake the arm exactly once in each servo period. Tachometers that are read once per period then show
-        a steady rate although the joint does not move on average.
+        It can happen that a tool shakes the arm exactly once in each servo period. Tachometers that are read once per
+        period then show a steady rate although the joint does not move on average.
         """
         self.start, self.rate, self._pairs = q, qd, []
 
@@ -251,8 +251,8 @@ def _jump(arm: ArmModel) -> Array:
 
 
 def blown(here: Dynamics, impulse: Array) -> Array:
-    """Return the largest change of rate, shape (n,), that a blow on the hand may have caused in each joint. The joint
-    may have been stopped again within the same servo period.
+    """Return the largest change of rate, shape (n,), that a blow on the hand may have caused in each joint. At the end
+    of the servo period, this change may be gone, because something may have stopped the joint by then.
 
     `impulse`, shape (n,), N m s and N s, is the part of the change of momentum that the drives, the weight and the
     friction of the arm do not explain. The impulse and the angular impulse on the hand are computed from this part.

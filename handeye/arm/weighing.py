@@ -2,10 +2,11 @@
 
 Gravity torques are linear in the masses. One posture gives fewer equations than there are masses, so the most likely
 masses are computed. This is a linear regression with a prior (Gauss): MASS_DOUBT is the standard deviation of each
-mass, and TORQUE_DOUBT that of each torque. The gravity model is then exact at the posture of the weighing, and nearly
-exact elsewhere. In 200 worlds, the arm was weighed at the parked posture. The weighing reduced the error of the
-gravity torque on joint 2 of the Stanford arm from 1.5 to .2 N m at the parked posture, and from 1.8 to 1.3 N m over
-the table. Each figure is the limit within which 95 % of the errors lie.
+mass, and TORQUE_DOUBT that of each torque. The gravity model then nearly agrees with the true torques at the posture
+of the weighing. At other postures, the weighing improves the model less. In 200 worlds, the arm was weighed at the
+parked posture. The weighing reduced the error of the gravity torque on joint 2 of the Stanford arm from 1.5 to .2 N m
+at the parked posture, and from 1.8 to 1.3 N m over the table. Each figure is the limit within which 95 % of the errors
+lie.
 """
 
 from dataclasses import replace

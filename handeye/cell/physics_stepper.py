@@ -21,9 +21,9 @@ steps. A screw, for example, is tightened in short steps, because in middle step
 If a part is crushed, for example between a fixture and a hand that runs into it, the computation may diverge in short
 steps. The same interval of time is then computed again, in fine steps. An interval is also computed again if the force
 on a finger pad is greater than hand and arm can exert (`CRUSHING`). For example, a finger presses askew into a corner
-of a hole, and overloaded friction lifts it off for one short step. In this step, the motor drives the free finger .1
-mm into the corner, where it overlaps several faces at once. The simulator then pushes the finger out with thousands of
-newtons, and so throws the part about in the hand. In fine steps, the finger only slides.
+of a hole, and overloaded friction lifts the finger off for one short step. In this step, the motor drives the free
+finger .1 mm into the corner, where it overlaps several faces at once. The simulator then pushes the finger out with
+thousands of newtons, and so throws the part about in the hand. In fine steps, the finger only slides.
 
 Fine steps are also made when fingers are too fast for their servo: its damping alone would then exceed the force limit
 of the motor. MuJoCo applies a force limit at the beginning of a step, and leaves the damping of a motor at its limit
@@ -34,8 +34,8 @@ fingers would swing for ever. In fine steps, they come to rest.
 Euler's method moves the joints, and with them the hand, along an arc. It moves a free body along the tangent. For a
 free body, Euler's method thus leaves out the second-order term of the motion: half the acceleration times the square
 of the step. After long steps this term is therefore added to carried bodies; it is a few micrometres in a servo
-period. The term does not stop a part that slips in the fingers, because only friction holds the part. Short steps
-leave the term out. A held part therefore creeps less in long steps than in short steps.
+period. The term does not fix a part to the hand: only friction holds the part, which can therefore still slip in the
+fingers. Short steps leave the term out. A held part therefore creeps more in short steps than in long steps.
 
 MuJoCo puts a tree of bodies to sleep when the tree, and everything it touches, has hardly moved for ten steps. MuJoCo
 wakes a sleeping tree when an awake body touches the tree, but not when a motor receives a new command. Code that

@@ -100,7 +100,10 @@ class SnapshotCell:
         if state.physics.shape != (mujoco.mj_stateSize(self._model, INTEGRATION),):
             raise ValueError("the saved physics belong to another scene")
         if set(state.figures) != set(self._changes):
-            raise ValueError("the saved state belongs to a scene in which other fields of the model change")
+            raise ValueError(
+                "the fields of the model that change in the scene of the saved state are not those that change in "
+                "this scene"
+            )
         for name, values in state.figures.items():
             if values.shape != getattr(self._model, name).shape:
                 raise ValueError(f"{name} has a different size here")

@@ -328,7 +328,7 @@ class Threads(Mechanism[ThreadsState]):
 
     def _on(self, hole: int) -> bool:
         """Return True if the bit stands upright over the slot of the screw in a hole, and on the head of this screw.
-        The bit must be near the hole.
+        Before the call, the caller checks that the bit is near the hole.
         """
         data, head = self._data, self._carriers.head[hole]
         apart = data.geom_xpos[head] - data.geom_xpos[self._bit]

@@ -69,7 +69,7 @@ trials rare = rare:rare_trials: Estimate, by subset simulation, how rarely a pro
 trials worst = rare:worst_trials: Find the failing worlds whose errors are smallest, and the quantities that make the program fail.
 env: Gymnasium environments of the cell, for learned policies; need the extra `env` (gymnasium).
 env list = environments:environments: List the Gymnasium environments: their ids, jobs and time limits.
-env evaluate = environments:evaluate: Evaluate a policy: success rate and false-done rate with their confidence intervals, how many steps of the work it reached, peak force and time.
+env evaluate = environments:evaluate: Evaluate a policy: success rate and false-done rate with their confidence intervals, how many steps of the work the policy finished, peak force and time.
 bench: Benchmarks: stage times, inserting a pin into a hole, and programs that agents write.
 bench timing = benches:timing: Assemble once and print the times of the stages next to those of 1973.
 bench agents = agents:bench_agents: Score programs that agents write, in worlds that the agents have not seen; silent failures count twice.

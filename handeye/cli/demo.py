@@ -32,8 +32,8 @@ def demo(
 
     `handeye demo chess` shows another recorded run: an arm of 1981 sorts chess pieces with a single light beam as its
     sensor. Its page lists each statement of the program and each command on the bus. `handeye demo follow` shows the
-    curve follower of 1975: an arm feels the outline of a plate. Its page draws the outline that the arm has felt on
-    top of the true outline, and shows all tables of the machine in each cycle of 10 ms.
+    curve follower of 1975: an arm feels the outline of a plate. Its page draws two outlines, the one that the arm has
+    felt over the true one, and shows all tables of the machine in each cycle of 10 ms.
 
     Exit code 0: the page is written; 2: bad input.
     """

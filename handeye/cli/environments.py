@@ -64,7 +64,7 @@ def evaluate(
     options: SweepOptions = ANY,
 ) -> int:
     """Evaluate a policy: success rate and false-done rate with their confidence intervals, how many steps of the work
-    it reached, peak force and time.
+    the policy finished, peak force and time.
 
     Each episode takes place in a world of its own. A false done is an episode in which the policy says that the work
     is done, but the referee disagrees. An episode that reaches its time limit counts as a failure, even if the work is

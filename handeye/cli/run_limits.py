@@ -54,10 +54,10 @@ def check_ahead(start: "Checkpoint", stops: list["AnyStop"], breaks: list[str]) 
 
     for stop in stops:
         if isinstance(stop, BeforeStep) and not is_ahead(stop, start):
-            raise BadArgument(f"the run never reaches step {stop.step} from where it starts")
+            raise BadArgument(f"the run never reaches step {stop.step} from the step at which the run begins")
     for text in breaks:
         if not is_ahead(breakpoint(text, listing_of(start.setup)), start):
-            note(f"the run never reaches {text} from where it starts")
+            note(f"the run never reaches {text} from the step at which the run begins")
 
 
 def checkpoint_folder(checkpoints: Path | None, out: Path | None) -> Path | None:

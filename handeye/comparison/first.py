@@ -151,7 +151,8 @@ class First:
     differing: QuantityDifference
     next: tuple[AnyEvent | None, AnyEvent | None] = (None, None)
     """The next event of each run in this step. Both are None if the runs differ in something other than their events.
-    One is None if a servo period comes first in its run, or if the step has no further events.
+    The entry of one run is None if, in this run, a servo period comes before the next event, or no further event comes
+    in this step.
     """
 
     @property

@@ -201,7 +201,7 @@ def sections(found: Comparison, way: Course) -> Iterator[Markup]:
 
 
 def _differences(found: Comparison, way: Course) -> Iterator[Markup]:
-    """Yield the conditions that differ, and the first difference."""
+    """Yield the first difference between the runs, and a table of the conditions in which the runs differ."""
     if found.first is None:
         yield element("p", "There is none.")
     else:

@@ -1,4 +1,4 @@
-"""Finds the divergence of two runs: the first event after which they take different courses."""
+"""Finds the divergence of two runs: in each run, the first event at which their courses differ."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass

@@ -64,7 +64,7 @@ def given_count(given: object, what: str) -> int:
 
 
 def given_place(given: object) -> str:
-    """Write a place in a program as text. A line may be given as a number."""
+    """Return, as text, the place in a program that an argument names. A line may be given as a number."""
     if isinstance(given, bool) or not isinstance(given, (str, int)):
         raise BadArgument(f"a place must be a text or a line number, not {given!r}")
     return str(given)

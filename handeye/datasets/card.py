@@ -28,11 +28,11 @@ this moment, and `action` is what the arm did in the tenth of a second after it.
 | feature | content | unit |
 |---|---|---|
 | `observation.state` | positions of the joints, then the opening of the fingers, as last read by the potentiometers | rad; m for the boom and the fingers |
-| `observation.state_mean` | mean of the same readings over the frame | as before |
+| `observation.state_mean` | mean of the same readings over the tenth of a second before the moment | as before |
 | `observation.rate` | rates of the joints, as last read by the tachometers | rad/s, m/s |
 | `observation.torque` | mean torque that the servo commanded; 0 under the brakes | N m, N |
 | `observation.force` | last estimate of the force and moment of the hand on its surroundings, about the tool centre point, in the axes of the table | N, N m |
-| `observation.force_mean` | mean of these estimates over the frame | N, N m |
+| `observation.force_mean` | mean of these estimates over the tenth of a second before the moment | N, N m |
 | `observation.force_share` | fraction of the servo periods in which force was estimated. The program estimates force only in guarded and compliant motions; elsewhere, the force is 0 and means nothing | |
 | `observation.picture_age` | time since the last television picture was taken; -1 before the first one | s |
 | `action` | positions at the end of the next frame, as the sensors will read them | rad, m |

@@ -14,7 +14,8 @@ AnyPath = str | bytes | PathLike[str] | PathLike[bytes]
 
 
 class EncodedImage(PngImageFile):
-    """A PNG image. Its files are links to one file, where the file system allows that.
+    """A PNG image. If the image is saved several times, all files are links to the first one, where the file system
+    allows that.
 
     LeRobot saves a file for each frame of an episode, but most frames repeat a picture.
     """

@@ -1,4 +1,4 @@
-"""Executes runs in many worlds, each recorded in a folder of its own. Runs that have ended are not repeated."""
+"""Executes runs in many worlds, and records each run in a folder of its own. Runs that have ended are not repeated."""
 
 from collections.abc import Callable
 from dataclasses import dataclass

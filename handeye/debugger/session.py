@@ -175,8 +175,8 @@ class DebugSession:
         return first
 
     def stage_began(self) -> int | None:
-        """Return the number of steps that were done when the last stage began: the present stage or, between two
-        stages, the previous one. Returns None before the first stage.
+        """Return the number of steps that were done when the present stage began or, between two stages, when the
+        previous stage began. Returns None before the first stage.
         """
         return next(reversed(beginnings(self.runner).values()), None)
 

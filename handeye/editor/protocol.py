@@ -45,7 +45,9 @@ class Protocol(LanguageServerProtocol):
 
 
 class OneLine(logging.Formatter):
-    """Formats each log record as one line. A traceback is added only if the editor did not cause the error."""
+    """Formats each log record as one line. A traceback is added to an error, except to a `JsonRpcException`: a message
+    from the user's editor causes this error.
+    """
 
     def format(self, record: logging.LogRecord) -> str:
         """Return the log record as text."""

@@ -105,7 +105,7 @@ class EditedScript:
         return lsp.WorkspaceEdit(changes=changes)
 
     def requires(self, uri: str) -> bool:
-        """Return True if the script requires a file."""
+        """Return True if the script requires the file with the address `uri`."""
         return uri in map(self._uri, self.document.whole.required)
 
     def _taught_text(self, file: Path) -> str:

@@ -13,7 +13,7 @@ from handeye.execution.servo import Motion, T
 from handeye.execution.servo_loop import Outcome, ServoLoop
 from handeye.touch.guards import Monitor
 
-STANDS: Final = 0.1
+_STANDS: Final = 0.1
 """Time (s) in which the brakes bring the arm to rest. Our choice."""
 
 
@@ -27,7 +27,7 @@ class ArmDrive(ServoLoop):
 
     def stop(self) -> None:
         """Set the brakes, and wait until the arm is at rest."""
-        self.brake(STANDS)
+        self.brake(_STANDS)
 
     def float(self, seconds: float) -> None:
         """Release the arm and let time pass. The drives balance gravity and load, so that a push moves the hand."""

@@ -2,7 +2,6 @@
 with the step that the test selects.
 """
 
-from contextlib import suppress
 from dataclasses import dataclass
 from typing import Final, Literal
 
@@ -16,7 +15,6 @@ from handeye.execution.context import Action, ExecutionContext
 from handeye.execution.flow_actions import DECISIONS, FLOW_ACTIONS
 from handeye.execution.hand_actions import HAND_ACTIONS
 from handeye.execution.motion_actions import MOTION_ACTIONS
-from handeye.execution.servo import Halted
 from handeye.execution.state import ExecutionState, Fault, ReversalOrder, vector
 from handeye.execution.undo.memory import before, noted
 from handeye.execution.undo.undoing import end, order, undo_last
@@ -107,6 +105,8 @@ class Executor:
             self._watch_for_circles()
         if self.state.stopped is not None:
             self.state.done[-1] = replace(self.state.done[-1], called=True)
+        elif self.state.at is None and self.state.undoing is None:
+            run.drive.stop()  # the program has ended; under its drives, the arm would still sway
         self._leave()
 
     def answer(self, choice: Choice) -> None:
@@ -138,17 +138,12 @@ class Executor:
         self.run.emit(UndoOrdered(time=self.run.time, left=left, halts=halts, asked_by=asked_by))
 
     def finish(self) -> bool:
-        """End the run. A program that has been completed leaves the arm under its brakes: under its drives, the arm
-        would still sway. Returns True if the program has been completed.
-        """
+        """End the run. Returns True if the program has been completed."""
         run = self.run
         if self.state.stage is not None:
             stage = run.plan.program.stages[self.state.stage]
             run.emit(StageFinished(time=run.time, stage=stage, status="stopped"))
         completed = self.state.at is None and self.state.stopped is None
-        if completed:
-            with suppress(Halted):  # the brakes are set, even if the panic button is pressed meanwhile
-                run.drive.stop()
         run.emit(RunFinished(time=run.time, completed=completed))
         return completed
 

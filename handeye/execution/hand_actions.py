@@ -200,8 +200,8 @@ def _unlike(run: ExecutionContext, least: float, maximum: float | None) -> GapUn
     if the two agree, if the hand is empty, or if the object is unknown.
 
     The program gives limits for the gap. When the gap is outside these limits for the first time, the gap is not
-    reported here, because the hand may only hold the object askew. If the gap is the same at the next grasp, the gap
-    is reported.
+    reported here, because the object may be askew in the hand. If the gap is the same at the next
+    grasp, the gap is reported.
     """
     state, gap = run.state, run.drive.sensed.gap
     name, thickness = _nominal(run)

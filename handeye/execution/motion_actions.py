@@ -239,8 +239,9 @@ def _motor(run: ExecutionContext) -> CurrentSilent | CurrentUnlike | MotorSlow |
 
 
 def _fast(drive: DriveState) -> MotorFast | None:
-    """Return the cause if the motor turns too fast; if not, return None. A motor that turns too fast takes longer than
-    usual to reach its speed. When it has reached its speed, it runs without load.
+    """Return the cause if the motor turns too fast; if not, return None. A motor whose free speed is too high needs
+    longer than usual to reach this speed, because the speed is higher. When the motor has reached it, the motor runs
+    without load.
     """
     late, free = drive.starting[STARTING_PERIODS:], drive.lately[FAST_PERIODS:]
     if len(late) < FAST_PERIODS - STARTING_PERIODS or not free or median(free) > 2 * CURRENT_NOISE:

@@ -194,8 +194,8 @@ class Servo:
         taring: bool = False,
         periods: int = 1,
     ) -> Motion[Sensed]:
-        """Run one servo period with torques `tau` or, if `tau` is None, several periods under brakes. At the end,
-        `feel` estimates the force.
+        """Run one servo period with torques `tau` or, if `tau` is None, several periods under brakes. At the end, the
+        function `feel`, if given, estimates the force from the readings.
 
         Returns the readings at the end.
         """

@@ -336,9 +336,9 @@ class ServoLoop(Servo):
     def height(self) -> float:
         """Height (m, in W) at which the hand has stopped, computed from its set-point.
 
-        The readings have steps of up to .05 in at the hand, because the converters round them. A set-point has no
-        steps. The arm takes many readings while it moves, and the rounding errors of these readings average out. On
-        average, two motions that the same force stops therefore end at the same height.
+        The converters round the readings, which therefore have steps. At the hand, these steps are up to .05 inch. A
+        set-point has no steps. The arm takes many readings while it moves, and the rounding errors of these readings
+        average out. On average, two motions that the same force stops therefore end at the same height.
         """
         met = self.state.met
         return float(self.chain.forward(self.state.q)[2, 3] if met is None else met[2])

@@ -35,8 +35,8 @@ SEE: Final = ArmExercise(
         ),
         (
             "called the operator",
-            "In this exercise, the base always lies as it should. Before each LOOK, choose the lens, aim the "
-            "camera, and keep the arm out of the picture.",
+            "In this world, the base lies as it should. Before each LOOK, choose the lens, aim the camera, and "
+            "keep the arm out of the picture.",
         ),
     ),
 )

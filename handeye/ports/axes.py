@@ -76,7 +76,7 @@ class Axes(ABC):
 
     @abstractmethod
     def read(self) -> AxesReading:
-        """Read the machine. All readings at one time of the clock give the same values."""
+        """Read the machine. Repeated calls at the same time of the clock return the same values."""
 
     @abstractmethod
     def put(self, goal: Array) -> None:

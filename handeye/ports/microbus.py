@@ -56,7 +56,9 @@ class Command(Record, frozen=True, kw_only=True):
 
 
 class BusFault(HandeyeError):
-    """Raised if an answer did not arrive as the protocol requires."""
+    """Base class of the errors raised if an answer breaks the protocol: the answer is incomplete, or has too many
+    bytes.
+    """
 
     number: int  # number of the microcomputer that was asked
 

@@ -190,8 +190,8 @@ class Travel(Operation, frozen=True, kw_only=True):
 
 
 class Height(Operation, frozen=True, kw_only=True):
-    """Compare the hand's height after the last motion with its height at the `SAVE` of a difference. Raises error 9 if
-    the rise (m) is outside the range from `minimum` to `maximum`.
+    """Compare the hand's height after the last motion with its height when the difference `name` was last saved.
+    Raises error 9 if the rise (m) is outside the range from `minimum` to `maximum`.
     """
 
     family: ClassVar = "test"

@@ -28,7 +28,7 @@ class SystemState(MutableRecord, kw_only=True):
 
     @property
     def places(self) -> tuple[TaskPlace, ...]:
-        """The place of each unfinished task. The task that runs next comes first, and `at` is its next step. A system
-        with several tasks overrides this property.
+        """The place of each unfinished task. The task that runs next comes first. The next step of this task is also
+        the value of the state's field `at`. A system with several tasks overrides this property.
         """
         return () if self.at is None else (TaskPlace("", self.at),)

@@ -107,7 +107,9 @@ def _capital(text: str) -> str:
 
 
 def unproved(proof: Proof, program: Program) -> list[Diagnostic]:
-    """Return a diagnostic for each finding that some path to the end does not show to hold."""
+    """Return a diagnostic for each finding that is not proved: on some path to the end, the program does not show that
+    the finding holds.
+    """
     source = program.whole
     if not proof.ends:
         span = _span(source, program.steps[-1]) if program.steps else Span(start=0, end=0)

@@ -168,8 +168,9 @@ class Contact(Record, frozen=True, kw_only=True):
 
 
 class HeightWithin(Evidence, frozen=True, kw_only=True):
-    """A HEIGHT that compares the heights of the hand at two contacts. It follows the contact `of`, and measures the
-    height from that at the contact `over`. The range (m) that this HEIGHT allows lies within `limits`.
+    """A HEIGHT that compares the heights of the hand at two contacts: it measures how much higher the hand is at the
+    contact `of`, where the program executes the HEIGHT, than at the contact `over`, where the difference was saved.
+    The range (m) that this HEIGHT allows lies within `limits`.
     """
 
     operations: ClassVar = (Height,)

@@ -196,7 +196,7 @@ def planned_block(program: Program, position: Position) -> Block:
 
 
 def _reaching(program: Program) -> Mapping[int, set[int]]:
-    """Return, for each HERE, the steps that may follow it."""
+    """Return, for each HERE, all steps that can follow it, directly or indirectly."""
     graph = Graph(program.steps)
     return {number: graph.after([number]) for number in graph.which(Here)}
 

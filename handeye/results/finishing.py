@@ -45,8 +45,8 @@ def finished(
     referee: Referee | None = None,
     folder: RunFolder | None = None,
 ) -> Result:
-    """End the run, unless it has only paused and can continue. Then write the pictures and the
-    result of the run to its folder. Returns the result.
+    """End the run, unless it has only paused and can continue. In both cases, write the pictures and the result of the
+    run to its folder, if it has one. Returns the result.
 
     The result is written last. A folder with a result therefore contains all other files, too. Raises InvalidInput if
     a file cannot be written.

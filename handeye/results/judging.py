@@ -16,8 +16,8 @@ Limits = Mapping[str, float]  # Limits of findings by their names, each in the u
 
 def findings(runner: Runner, pause: Pause, referee: Referee | None = None) -> Findings:
     """Return the findings of a referee. If `referee` is None, the task's referee judges the run with the limits of the
-    run. If the program has not ended, there are findings only under two conditions: the program has stopped, and the
-    task's referee also measures unfinished work.
+    run. If the program has not ended, there are findings only if it has stopped, not merely paused, and the task's
+    referee also measures unfinished work.
 
     If the arm has undone all its work, the findings say whether all parts are back in their places, and whether
     the taught positions are unchanged.

@@ -52,7 +52,8 @@ class Timing(Record, frozen=True, kw_only=True):
     manipulation_s: float
     """Simulated time of the working phase, without the time in which the arm waited for the camera."""
     lens_s: float
-    """Simulated time in which the arm waited for the camera to change its lens, aim, focus and take pictures."""
+    """Simulated time in which the arm waited for the camera to change the lens, to aim, to focus and to take pictures.
+    """
     overlapped_s: float
     """Simulated time in which the camera's mechanism and the arm moved at the same time; `manipulation_s` includes
     this time.

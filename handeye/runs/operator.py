@@ -30,14 +30,14 @@ from handeye.runs.undo_orders import stage_began
 
 
 class Back(Record, frozen=True, kw_only=True):
-    """The decision to put the simulation back to the latest beginning of a stage, given by its index."""
+    """The decision to put the simulation back to the latest beginning of the stage with the index `stage`."""
 
     stage: int
 
 
 class Unwind(Record, frozen=True, kw_only=True):
-    """The decision to let the arm undo its steps, back to the latest beginning of a stage, and then to continue the
-    program. The stage is given by its index.
+    """The decision to let the arm undo its steps, back to the latest beginning of the stage with the index `stage`,
+    and then to continue the program.
     """
 
     stage: int

@@ -37,7 +37,7 @@ class Parts:
 
     @property
     def names(self) -> dict[str, str]:
-        """The names of the replaced parts."""
+        """The names of the caller's code. The keys are the parts that this code replaces."""
         found: dict[str, Any] = {"search": self.search, "camera": self.camera, **self.vision}
         return {part: name_of(code) for part, code in found.items() if code is not None}
 

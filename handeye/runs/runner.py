@@ -285,14 +285,8 @@ class Runner:
         self._settle()
 
     def finish(self) -> bool:
-        """End the run, and put the cell into the state that a checkpoint of it would hold. Returns True if the program
-        was completed.
-        """
-        completed = self.system.finish() and self.trouble is None
-        cell = self.system.cell
-        if cell is not None:
-            cell.restore(cell.capture())
-        return completed
+        """End the run. Returns True if the program was completed."""
+        return self.system.finish() and self.trouble is None
 
     def repeat(self, events: Sequence[AnyEvent]) -> None:
         """Continue until the run has `len(events)` events. On the way, repeat the operator's actions that `events`

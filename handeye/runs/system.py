@@ -439,8 +439,8 @@ class System(ABC):
         return ()
 
     def order(self, plan: Any, state: Any, undoing: ReversalOrder) -> None:
-        """Write an order to undo into a state. A run that continues from this state first undoes executed steps. Raises
-        InvalidInput if no executed step is left.
+        """Change a state, so that a run that continues from it first undoes executed steps. `undoing` is the order to
+        undo them. Raises InvalidInput if no executed step is left.
         """
         raise refusal(self.name, "undo")
 

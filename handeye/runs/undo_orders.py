@@ -66,8 +66,8 @@ def _check_whole(checkpoint: Checkpoint, done: Sequence[ExecutedStep], name: str
 
 
 def done_since(checkpoint: Checkpoint, events: Sequence[AnyEvent]) -> int | None:
-    """Count the steps that a run finished after a checkpoint. `events` are all events of the run. Returns None if they
-    belong to another run.
+    """Count the steps that a run finished after a checkpoint. `events` are all events of the run. Returns None if the
+    events belong to another run than the checkpoint.
     """
     begun = len(checkpoint.events)
     if tuple(events[:begun]) != checkpoint.events:

@@ -47,15 +47,17 @@ def settled(events: Sequence[AnyEvent]) -> int:
 
 
 def difference(trace: Trace, folder: Path) -> str | None:
-    """Repeat a run as `repetition` does, and return the first difference as a sentence. Even numbers that differ only
-    in their last digits count as different. Returns None if there is no difference.
+    """Repeat a run as `repetition` does, and return the first difference as a sentence. Two numbers count as different
+    even if they differ only in their last digits. Returns None if there is no difference.
     """
     found = repetition(trace, folder)
     return found.rounded or found.parts
 
 
 def repetition(trace: Trace, folder: Path) -> Repetition:
-    """Repeat a run in `folder` and compare both recordings. Raises Refused if the trace is thinned."""
+    """Repeat the run of a trace, and compare both recordings. The repeated run is written to the new folder `folder`.
+    Raises Refused if the trace is thinned.
+    """
     if trace.thinned:
         raise Refused(f"{trace.name} is thinned and cannot be verified; verify the original trace")
     wanted = trace.events[: settled(trace.events)]

@@ -115,8 +115,8 @@ def planned(task: AnyTask) -> Task:
 
 
 def known_any(name: str) -> AnyTask | None:
-    """Return the task called `name`. Returns None if this process does not know the task; for example, only another
-    process may have registered it. Raises InvalidInput if the task's module cannot be imported.
+    """Return the task called `name`. Returns None if this process does not know the task, for example because the task
+    was registered only in another process. Raises InvalidInput if the task's module cannot be imported.
     """
     if name not in _REGISTERED and (place := _BUILT_IN.get(name) or _ours().get(name)) is not None:
         return _loaded(place)

@@ -148,8 +148,8 @@ class AnyTask(ABC):
         """Return the referee's findings on the finished work. The referee does not change the cell."""
 
     def judge_between(self, truth: Truth, done: int) -> Findings:
-        """Return the findings that must hold after the first `done` stages of the task's own program, but not at the
-        end of this program. Empty by default. The referee does not change the cell.
+        """Return the findings that must hold after the first `done` stages of the task's own program, but need not
+        hold at the end of this program. Empty by default. The referee does not change the cell.
         """
         return {}
 

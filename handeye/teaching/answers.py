@@ -82,8 +82,8 @@ def text(answer: Answer) -> str:
 
 
 def carry_out(workplace: Workplace, source: Source, *, alone: bool = False) -> Answer:
-    """Plan a text and, if there are no errors, execute it. If `alone` is True, the text is only a part of the work,
-    and need not be complete.
+    """Plan a text and, if there are no errors, execute it. If `alone` is True, the text is executed alone, as a part
+    of the work, and need not be complete.
 
     Raises InvalidInput if the text takes pictures and the camera was not set up.
     """

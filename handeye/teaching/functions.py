@@ -43,7 +43,7 @@ def planned(
     """Plan a text for an arm whose joint positions are `start` (rad or m, shape (n,)). `saved` are the names of
     saved differences.
 
-    If `alone` is True, the text is only a part of the work and need not be complete.
+    If `alone` is True, the text is planned alone, as a part of the work, and need not be complete.
     """
     made = plan_source(source, taught, arm, AL, task=task, start=start)
     told = [

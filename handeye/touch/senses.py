@@ -118,8 +118,8 @@ def kept_apart(gap: float, goal: float) -> bool:
 
 def stood_still(change: float, driven: float) -> bool:
     """Return True if the fingers stood still although their motor was driven. `change` is the measured change of the
-    gap, and `driven` the change that the motor should have made (both in m). `driven` must be greater than GAP_ERROR,
-    and `change` no greater than noise.
+    gap, and `driven` the change that the motor should have made (both in m). The result is True if `driven` is greater
+    than GAP_ERROR and `change` is smaller than GAP_NOISE.
     """
     return driven > GAP_ERROR and abs(change) < GAP_NOISE
 

@@ -67,7 +67,7 @@ def eye_sweep(name: str, trial: Trial[Any]) -> Sweep[EyeRow]:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class EyeWork:
-    """Makes the attempts of a trial without a program. All attempts of one case share a world and its camera
+    """Makes the attempts of a trial that runs no program. All attempts of one case share a world and its camera
     calibration.
     """
 

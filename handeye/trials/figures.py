@@ -57,8 +57,8 @@ def mcnemar(only_first: int, only_second: int) -> float:
 
 
 def signed_rank(differences: Sequence[float]) -> float:
-    """Return the two-sided p-value of Wilcoxon's signed-rank test. If neither batch is better, the p-value is the
-    probability that the differences favour one of the batches at least as strongly as `differences`.
+    """Return the two-sided p-value of Wilcoxon's signed-rank test. The p-value is the probability, for equally good
+    batches, that the differences favour one of the batches at least as strongly as the given differences.
     """
     from scipy.stats import wilcoxon
 

@@ -43,7 +43,9 @@ class Answer(Generic[Item, T]):
 
     @property
     def lost(self) -> bool:
-        """True if the process that worked on the item was killed. The item may be repeated once."""
+        """True if the process that worked on the item was killed. The item is then repeated in another process. If
+        this process is killed too, the item is not repeated again.
+        """
         return self.value is None and self.error is None and not self.overdue
 
 

@@ -51,7 +51,7 @@ class Link:
             yield line
 
     def come(self) -> str | None:
-        """Return a line that has already been received, or None."""
+        """Take the next received line from the queue and return it; return None if no line is waiting."""
         try:
             return self._lines.get_nowait()
         except Empty:

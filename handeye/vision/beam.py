@@ -35,7 +35,7 @@ class Edge(NamedTuple):
 
 
 class Edges(NamedTuple):
-    """The edges found by several beams, one per row."""
+    """The edges found by several beams. Row `n` of each field belongs to beam `n`."""
 
     met: NDArray[np.bool_]
     """True if the beam found an edge; if not, the other fields of the row are meaningless."""

@@ -75,7 +75,9 @@ def _rise(line: list[float], i: int) -> float:
 
 
 def _vertex(line: list[float], polarity: Polarity, i: int) -> float:
-    """Return the position of the vertex of the parabola through the rises about index `i`, from -.5 to .5."""
+    """Put a parabola through the rises at index `i` and at the two indices next to it. Return the offset of its vertex
+    from `i`, limited to -.5 to .5.
+    """
     if not 0 < i < len(line) - 2 * SPAN:
         return 0.0
     left, top, right = (polarity * _rise(line, k) for k in (i - 1, i, i + 1))

@@ -159,7 +159,7 @@ def _as_seen(old: Scan, view: View, part: Part, places: Array) -> Array:
 
 class _BaseSteps(NamedTuple):
     """Thresholds for the picture without the gasket: the least change of intensity across a border, and the intensity
-    of the face.
+    above which a point belongs to the face of the base.
     """
 
     before: float
@@ -168,8 +168,8 @@ class _BaseSteps(NamedTuple):
 
 class _Steps(NamedTuple):
     """Thresholds of intensity. `after` is the least change across a border in the difference between the two pictures.
-    `before` is the least change across a border in the picture without the gasket. `face` is the intensity of the
-    face.
+    `before` is the least change across a border in the picture without the gasket. `face` is the intensity above which
+    a point of that picture belongs to the face of the base.
     """
 
     after: float
@@ -234,7 +234,7 @@ def _centre(
 ) -> tuple[float, float] | None:
     """Find the centre (x and y, in metres) of the hole that is expected at `place` (in metres, shape (3,)).
 
-    As in the location of the base, the characteriser finds the hole. Then a circle is fitted to the border of the
+    The characteriser finds the hole, as it does when the base is located. Then a circle is fitted to the border of the
     hole. Rays from the hole's centre find this border. If an aligning pin blocks one of the characteriser's four
     beams, the rays start from the expected place instead.
     """

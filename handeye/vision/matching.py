@@ -48,19 +48,19 @@ percentile of the picture's levels.
 Limits in levels mean something only in pictures of about the usual contrast. On a finished pump that the lamp lights,
 the contrast is 5.8 to 10.2 levels, which is 1.4 to 1.84 times the mean difference that a missing head gives (13
 directions and strengths of the lamp, five heads; heads in the shadow of the crank left out). So a missing head reaches
-the limit `DIFFERENT` at a contrast of at most 2.95 levels. The limit is larger, to leave a margin for the noise.
-Percentiles nearer the median depend on the direction of the lamp more than on how well a head can be seen: from the
-10th to the 90th percentile, the contrast is .8 to 1.5 times the difference that a missing head gives.
+the limit `DIFFERENT` at a contrast of at most 2.95 levels. `FAINT` is larger than 2.95, to leave a margin for the
+noise. Percentiles nearer the median depend on the direction of the lamp more than on how well a head can be seen: from
+the 10th to the 90th percentile, the contrast is .8 to 1.5 times the difference that a missing head gives.
 """
 DARK: Final = 7.6
 """Least brightness (levels) of the part in the earlier picture: the median of the levels near the screw holes. If the
 part has no screw holes, the median is taken on the whole part.
 
-In the shadow of the arm, only the light of the room falls on the part. There, a missing head gives .21 to .34 times the
-brightness beside it (a finished pump in the shadow of the arm's column, 33 directions and strengths of the lamp). So
-every missing head reaches the limit `DIFFERENT` at a brightness of 7.6, and most heads give 1.9 there, of which the
-noise hides one in twenty. Where the lamp shines on the pump, its face has 10 to 12 levels. The contrast cannot show a
-shadow: the edge of the shadow raises the contrast.
+In the shadow of the arm, only the light of the room falls on the part. There, a missing head gives .21 to .34 times
+the brightness beside it (a finished pump in the shadow of the arm's column, 33 directions and strengths of the lamp).
+So every missing head reaches the limit `DIFFERENT` at a brightness of 7.6, and most missing heads give a difference of
+1.9 levels there. The noise hides one in twenty of the heads that give 1.9 levels. Where the lamp shines on the pump,
+its face has 10 to 12 levels. The contrast cannot show a shadow: the edge of the shadow raises the contrast.
 
 The sides of the part must not count: if the lamp is low behind the part, most of the silhouette is dark although the
 lamp shines on the heads. If the shadow of the column hides three heads or more, the median is too low (99 % of the
@@ -122,7 +122,7 @@ def match(
 
 
 def _near(holes: Array) -> Points:
-    """Return a mask of the points near holes, whose centres are picture points, shape (n, 2)."""
+    """Return a mask of the points near holes. `holes` are the centres of the holes in picture points, shape (n, 2)."""
     drawn = np.zeros((ROWS, COLUMNS), np.uint8)
     for u, v in np.rint(holes).astype(int).tolist():
         cv2.circle(drawn, (u, v), NEAR, 1, -1)

@@ -199,7 +199,9 @@ class Scan:
         self._read[places] = True
 
     def summed(self, starts: Sequence[int], length: int, stride: int) -> list[float]:
-        """Return the intensities along parallel lines that begin at `starts`, summed across the lines."""
+        """Return `length` values: for each index along parallel lines that begin at `starts`, the sum of the
+        intensities of all lines at this index.
+        """
         ends = [slice(start, start + length * stride, stride) for start in starts]
         lines: list[Any] = [self._levels[each].tolist() for each in ends]
         return lines[0] if len(lines) == 1 else [sum(across) for across in zip(*lines, strict=True)]

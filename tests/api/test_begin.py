@@ -62,7 +62,7 @@ def test_a_run_is_taken_up_in_its_world(folder: Path) -> None:
     [
         ({"at": "nix"}, r"^there is no stage `nix`"),
         ({"at": 9}, r"^there is no stage 9; the program has stages 1 to 4$"),
-        ({"at": "never"}, r"^the run never reaches “never” from where it starts$"),
+        ({"at": "never"}, r"^the run never reaches “never” from the step at which the run begins$"),
         ({"at": ["shut"]}, r"^a place must be a text or a line number, not \['shut'\]$"),
         ({"seed": -1}, r"^a seed must be a whole number from 0 to 9007199254740991 \(2\^53 - 1\), not -1$"),
         ({"seed": "3"}, r"^a seed must be a whole number from 0 to 9007199254740991 \(2\^53 - 1\), not '3'$"),

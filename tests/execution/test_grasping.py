@@ -39,9 +39,7 @@ def carried_out(
     cell.hand.thickness = lambda _: thickness(cell)
     run = ExecutionContext(plan=plan, arm=arm, cell=cell.devices, camera=None, emit=lambda _: None)
     run.drive.watch = lambda period: periods.append(period.sensed)
-    executor = Executor(run=run)
-    executor.step()
-    executor.finish()
+    Executor(run=run).step()
     return cell, periods
 
 

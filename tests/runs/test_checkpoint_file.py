@@ -167,7 +167,7 @@ def test_only_figures_and_pictures_are_taken_for_arrays(data: bytes, dtype: str)
         (("cell", "mechanisms", "clamping"), {"clamped": "yes"}, "not a state of this work cell"),
         (("cell", "mechanisms"), {}, "other devices or mechanisms"),
         (("cell", "physics"), ["<f8", [2], b"\0" * 16], "another scene"),
-        (("cell", "figures"), {}, "a scene in which other fields of the model change"),
+        (("cell", "figures"), {}, "are not those that change in this scene"),
         (("cell", "noise"), "{}", "not a state of this work cell"),
         (("cell", "noise"), "[" * 5000, "not a state of this work cell"),
         (("cell", "mechanisms", "camera", "lens"), 0.5, "the turret has no"),

@@ -61,9 +61,10 @@ def test_a_moment_stays_what_it_was(looked: tuple[Runner, Moments]) -> None:
 
 def test_force_is_there_only_while_it_is_estimated(looked: tuple[Runner, Moments]) -> None:
     estimated = [moment.force is not None for moment in looked[1].all]
-    first = estimated.index(True)
-    assert 0 < sum(estimated) == len(estimated) - first
-    assert looked[1].all[-1].force[2] == pytest.approx(-11, abs=4)
+    first, last = estimated.index(True), len(estimated) - 1 - estimated[::-1].index(True)
+    assert all(estimated[first : last + 1])
+    assert last == len(estimated) - 3  # then the program ends, and the brakes bear the forces
+    assert looked[1].all[last].force[2] == pytest.approx(-11, abs=4)
 
 
 def test_a_run_that_goes_back_is_shown_where_it_then_is(looked: tuple[Runner, Moments]) -> None:

@@ -1,8 +1,8 @@
 """Finds each RESTORE whose difference has not been saved on any path to that RESTORE.
 
 There is one exception. In some programs, a RESTORE shifts the goal of a MOVE by a difference, and a SAVE after this
-MOVE saves the same difference again, relative to the shifted goal. Before the first SAVE, the difference is zero, and
-a RESTORE is no mistake.
+MOVE saves the same difference again, relative to the shifted goal. In such a program, the difference is zero before
+the first SAVE, so the first RESTORE of this difference is no mistake.
 """
 
 from collections.abc import Iterator

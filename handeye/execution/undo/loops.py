@@ -34,12 +34,12 @@ def loop_entry(
     """Return the index of the step to which the last jump back led, if the state of the cell is now the same as at the
     end of this step. Returns None if the state differs, or if no jump counts.
 
-    A jump counts only if all motions after its target step were in free air. A MOVE to the next place of a search does
-    not count, because reversing it would bring the hand back into contact with the object at the previous place.
-    `hand` takes the index of a step, and returns the position of the hand after the step (shape (3,), in W), or None
-    if the hand had not moved yet. `grasping` gives the state of the fingers at the end of the last step. It is True if
-    the fingers have closed, and have not opened after that. It is None if this state is the same as at the beginning
-    of the last step.
+    A jump counts only if all motions after its target step were in free air. One lift then reverses the rounds of the
+    loop. If they were reversed step by step, the reversal of a MOVE to the next place of a search would bring the hand
+    back into contact with the object at the previous place. `hand` takes the index of a step, and returns the position
+    of the hand after the step (shape (3,), in W), or None if the hand had not moved yet. `grasping` gives the state of
+    the fingers at the end of the last step. It is True if the fingers have closed, and have not opened after that. It
+    is None if this state is the same as at the beginning of the last step.
     """
     last = len(done) - 1
     for head in range(last, 0, -1):

@@ -1,4 +1,4 @@
-"""The base class of all causes, and the joint that a cause names."""
+"""The base class of all causes, and the record with which a cause names a joint."""
 
 from handeye.core.record import Record
 

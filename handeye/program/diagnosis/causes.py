@@ -29,8 +29,8 @@ class ArmNames(Record, frozen=True, kw_only=True):
 
 
 class BeyondArm(CauseRecord, frozen=True, kw_only=True):
-    """The arm cannot reach a pose, or cannot move to that pose. `goal` is the name of the position, if the position
-    has a name.
+    """The arm cannot reach a pose, or it could reach the pose but cannot carry out the motion to it. `goal` is the
+    name of the position, if the position has a name.
     """
 
     goal: str = ""
@@ -278,8 +278,8 @@ class HoldOff(CauseRecord, frozen=True, kw_only=True):
 
 
 class MetEarly(CauseRecord, frozen=True, kw_only=True):
-    """While the fingers closed to reverse a step, they touched too early. `kept` (m) is the gap when the step was
-    executed; the fingers touched at a wider gap (m).
+    """While the fingers closed to reverse a step, one or both of them touched an object too early, at the gap `gap`
+    (m). `kept` (m) is the gap when the step was executed, and is smaller.
     """
 
     fingers: tuple[bool, bool]

@@ -111,8 +111,8 @@ class RateScatters(CauseRecord, frozen=True, kw_only=True):
 class JointAlone(CauseRecord, frozen=True, kw_only=True):
     """A joint needs a torque (N m, or N if prismatic) that no force on the hand explains. `friction` is the torque
     that was measured before the program began; `friction` is None if the joint does not move at all. `one_way` is True
-    if the joint moved in only one direction. In one direction, a weight has the same effect as friction, so the arm
-    may have tilted.
+    if the joint moved in only one direction. In this case, the cause may also be that the arm has tilted: in one
+    direction, an additional weight on the joint has the same effect as friction.
     """
 
     joint: JointName

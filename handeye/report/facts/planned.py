@@ -138,7 +138,9 @@ class Mover(StrEnum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Cause:
-    """The reason for which a goal was shifted: a certain saved difference, part or place of a search."""
+    """The reason for which a goal was shifted: one saved difference, one part that vision located, or one place to
+    which a search advanced.
+    """
 
     name: str
     by: Mover

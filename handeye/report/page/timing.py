@@ -69,7 +69,7 @@ def _row(
 
 
 def _remarks(run: RecordedRun, then: HistoricalTiming | None) -> Iterator[str]:
-    """Yield remarks about times that the table does not contain."""
+    """Yield remarks about the table: the unit of its times, and the times that it lacks."""
     yield "Times are in minutes and seconds of simulated time."
     friction = sum(event.seconds for event in run.trace.events if isinstance(event, FrictionMeasured))
     calibration = run.trace.head.prepared - friction

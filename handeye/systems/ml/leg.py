@@ -87,8 +87,8 @@ SPEC: Final = ArmSpec(
     digital={2: ("touch_1", "touch_2")},
     sensors={**{2 + n: analog(17 + n) for n in range(3)}, 9: digital(2, 1), 10: digital(2, 2)},
 )
-"""The Stanford arm, as the real-time level sees it. Every opening of the fingers counts as within the tolerance of its
-goal, because a part may stop the fingers.
+"""The Stanford arm, as the real-time level sees it. The separation of the fingers counts as within the tolerance of
+its goal at every value, because a part may stop the fingers.
 """
 _GIVES: Final = re.compile(r"\*\s*([A-Z][A-Z0-9]*) IS &(\d+)\s*", re.ASCII)
 _TAKES: Final = re.compile(r"\*\s*&(\d+) IS ([A-Z][A-Z0-9]*)\s*", re.ASCII)

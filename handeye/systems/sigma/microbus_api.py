@@ -77,7 +77,7 @@ class Microbus:
             value: bytes 4 and 5 of other operations.
 
         Raises:
-            NoSuchName: no microcomputer has the name `name`, or no operation the name `op`.
+            NoSuchName: no microcomputer has the name `name`, or no operation has the name `op`.
             BadArgument: a number is outside its range, or the operation is a question.
         """
         kind = _op(op)

@@ -88,7 +88,10 @@ SHARE: Final = OrderExercise(
     start="share.mal",
     hints=(
         (KINDS["hands"], "Use a flag that means `the place is free`: TAKE it before the hand goes there."),
-        (KINDS["flag"], "Let the feeder wait until its last signal has been taken."),
+        (
+            KINDS["flag"],
+            "Before the feeder sets its flag again, let it wait until the previous signal has been taken.",
+        ),
         (
             KINDS["deadlock"],
             "Which task sets the flag that this task waits for? Which task must set the flag for the first time, "

@@ -115,8 +115,8 @@ def number_of(name: str | int) -> int:
 
 
 def name_of(number: int, *, line: bool = False) -> str:
-    """Return the name of a microcomputer of SUPERSIGMA, or of the assembly line if `line` is True. If the
-    microcomputer has no name, return its number as text.
+    """Return the name of a microcomputer of SUPERSIGMA or, if `line` is True, the name of a microcomputer of the
+    assembly line. If the microcomputer has no name, return its number as text.
     """
     known = LINE_NUMBERS if line else NUMBERS
     return {number: name for name, number in known.items()}.get(number, str(number))

@@ -373,7 +373,7 @@ class PlanSystem(System):
 
     def check(self, setup: Setup) -> None:
         """Raise InvalidInput if the plan was made for another arm, if the world of the setup is impossible in this
-        task, or if a fault of the setup cannot occur in it.
+        task, or if a fault of the setup cannot occur in the run.
         """
         world, plan = setup.world, plan_of(setup)
         task(setup.task).check_arm(plan)

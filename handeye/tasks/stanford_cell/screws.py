@@ -121,7 +121,7 @@ def add_box(
     low: float,
     colour: str = "",
 ) -> mujoco.MjsGeom:
-    """Add a box with its middle at a place and its underside at the height `low` (mm)."""
+    """Add a box. Its middle has the x and y of a place, and its underside has the height `low` (mm)."""
     x, y, z = (each * MM for each in size)
     geom = shaper.box(
         body,

@@ -75,8 +75,9 @@ def build_cell(world: PumpWorld, *, camera: str | RendererMaker = "auto", rest: 
 
 def carrying(screws: int) -> Carrying:
     """List the pairs of bodies that may touch while the simulator takes long steps: the hand and a loose part that it
-    holds, and the screwdriver and its screw. In steps of middle length, the screwdriver must not touch any body, and
-    the hand must not touch the base. No screw may turn in its thread. All other contacts are allowed.
+    holds, and the screwdriver and its screw. Steps of middle length have conditions of their own: the screwdriver
+    touches no body, the hand does not touch the base, and no screw turns in its thread. All other contacts are allowed
+    in these steps.
     """
     hand, driver, fastened = f"{ARM}link6", "driver", [f"screw{k}" for k in range(screws)]
     loose = ("base", "gasket", "top", "pin0", "pin1", driver, *fastened)

@@ -52,8 +52,9 @@ class Clamping(Mechanism[ClampingState]):
     def __init__(
         self, model: mujoco.MjModel, data: mujoco.MjData, threads: Threads, *, allowed: bool
     ) -> None:
-        """Prepare the cell. If `allowed` is False, everything stays awake and separate: the physics is the
-        same, but the simulation is slower."""
+        """Prepare the cell. If `allowed` is False, no part sleeps and no weld holds the layers: the physics is the
+        same, but the simulation is slower.
+        """
         self._model, self._data, self._threads, self._allowed = model, data, threads, allowed
         self._base = model.body("base").id
         self._layers = [model.body(name).id for name in LAYERS]

@@ -1,10 +1,10 @@
-"""Saves computing time: shanks that are clear of the holes in clamped layers are left out of the search for contacts.
+"""Saves computing time: shanks with play in the holes of clamped layers are left out of the search for contacts.
 
 A screw passes through gasket and top with .7 mm of play. The simulator does not know of this play, so it compares each
 shank with the twelve wedges around each hole. These comparisons take a fifth of the computing time of a clamped stack,
-and find nothing. Clamped layers are held by welds, and move by some micrometres at most. If a shank is clear of both
-holes at the beginning of a servo period, it therefore touches neither hole during that period. Leaving the shank out
-changes no number of the simulation.
+and find nothing. Clamped layers are held by welds, and move by some micrometres at most. If a shank is clear of the
+walls of both holes at the beginning of a servo period, it therefore touches neither wall during that period. Leaving
+the shank out changes no number of the simulation.
 """
 
 from typing import Final
@@ -24,8 +24,8 @@ choice: more than the few micrometres by which welds yield.
 
 
 class ClampedStepper(PhysicsStepper):
-    """Advances the physics of the pump's cell. In a clamped stack, this stepper does not search for contacts of the
-    shanks that are clear of all holes.
+    """Advances the physics of the pump's cell. In a clamped stack, a shank that passes through the holes of both
+    layers with play to spare is left out of the search for contacts.
     """
 
     def __init__(

@@ -29,7 +29,7 @@ from handeye.trials.sweep import Case, Sweep, TrialRow
 Outcome = Literal["refused", "caught", "unnoticed", "silent", "not run"]
 """The outcome of a mutant.
 
-- refused: the proof names a finding whose failure the mutant may not notice
+- refused: the proof names a finding whose failure could escape the notice of the mutant
 - caught: the mutant stopped in at least one run, and was silent in none
 - unnoticed: in all runs, the mutant ran to its end, and the work is right
 - silent: in at least one run, the work is wrong, but the mutant reported success

@@ -50,7 +50,9 @@ class RareRow(Row, frozen=True, kw_only=True):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Margin:
-    """The margin of a run, and the part that determines the margin."""
+    """The margin of a run. `part` names what determines the margin: a reserve of the program, a finding of the
+    referee, or the cause at which the program stopped. `part` is empty if nothing determines the margin.
+    """
 
     value: float
     """A value of 1 means that the run had the reserve that runs usually have. A value of 0 or less means that the run

@@ -85,7 +85,7 @@ def subset_simulation(
     failure itself, or if all its worlds have the same margin.
 
     Args:
-        first: worlds drawn independently; each further level has as many worlds.
+        first: worlds drawn independently; each further level has the same number of worlds as `first`.
         stream: function that takes the number of a level and returns the level's random number generator.
     """
     chains = [[_State(*each)] for each in zip(first, margins(0, first), strict=True)]

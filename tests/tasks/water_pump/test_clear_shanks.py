@@ -1,4 +1,4 @@
-"""Shanks that are clear of the holes in clamped layers are left out of the search for contacts, and no others."""
+"""Shanks with play in the holes of clamped layers are left out of the search for contacts, and no others."""
 
 from functools import cache
 from typing import Any

@@ -103,8 +103,8 @@ class Interpreter:
         self.check()
 
     def check(self) -> bool:
-        """Stop the program if an emergency has stopped the arm. Returns True if an emergency has stopped the
-        program.
+        """Stop the program if an emergency has stopped the arm. Returns True if an emergency has stopped the program,
+        now or earlier.
         """
         if not self.memory.stopped and (why := self._emergency):
             self._stop(why)

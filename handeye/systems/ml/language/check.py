@@ -102,8 +102,8 @@ class _Check:
                 yield mistake("limits-empty", told, line.place(1))
 
     def motors(self, line: Line) -> Iterator[Diagnostic]:
-        """Check the motors and the constant goals of a line. A line that both arms may execute has a mistake only if
-        neither arm can execute it.
+        """Check the motors and the constant goals of a line. If a line may command either arm, it has a mistake only
+        if it is wrong for both arms.
         """
         sides = self._sides.get(line.number or 0) or _ARMS
         mistakes = [list(_motors(line, _ARMS[side])) for side in _ARMS if side in sides]

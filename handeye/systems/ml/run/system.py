@@ -1,4 +1,4 @@
-"""Defines the system of MOS and ML. The system builds runs, and provides the words for these runs."""
+"""Defines the system of MOS and ML. The system builds runs, and provides the texts that users read in these runs."""
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path

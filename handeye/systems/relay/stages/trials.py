@@ -110,8 +110,8 @@ class StageWork:
 
 
 def stage_figures(start: Checkpoint, stage: str, done: int) -> dict[str, object]:
-    """Run the last leg of a relay from a checkpoint, and return the fields of its row. `done` is the number of
-    completed stages after this leg.
+    """Run the last leg of a relay from a checkpoint, and return the fields of the trial's row. `done` is the number of
+    stages that are complete when this leg has ended.
     """
     peaks: list[LegPeaks] = []
 

@@ -30,7 +30,8 @@ def error_rate(clock: float, commands: int, seed: int = 0, timing: Timing | None
     """Send random commands to receivers that become free at random times. Each receiver's clock runs fast or slow by a
     random fraction, at most `clock`.
 
-    A receiver becomes free either while its command is sent or, at the earliest, one command's duration before that.
+    The earliest time at which a receiver becomes free is one command's duration before the start of its command; the
+    latest is the end of the command.
     """
     timing = timing or Timing()
     wires = Wires(_ANOTHER, timing, ())

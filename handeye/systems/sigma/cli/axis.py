@@ -38,7 +38,8 @@ def axis(
         Parameter(
             negative=(),
             help=(
-                "To stop, send no more pulses. Without this option, the motor stops along the steepest ramp."
+                "Stop the motor by sending no more pulses. Without this option, the motor stops along the steepest "
+                "ramp."
             ),
         ),
     ] = False,

@@ -17,8 +17,8 @@ from handeye.systems.sigma.protocol import ANSWERS, Op, echo, name_of, self_test
 PATTERNS: Final = (b"\x55\xaa\x33", b"\xaa\x55\xcc")
 """Test patterns for ECHO. They drive each data line both low and high, and neighbouring bytes differ."""
 DEAD: Final = (
-    "no microcomputer on this segment answers: the interface of the segment is dead, or a data line that should be "
-    "low in every address on the segment is stuck high"
+    "no microcomputer on this segment answers: the interface of the segment is dead, or one data line, which "
+    "is low in the addresses of all these microcomputers, is stuck high"
 )
 _ALL: Final = 0xFF
 

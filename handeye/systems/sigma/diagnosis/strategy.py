@@ -188,7 +188,7 @@ class Strategy:
             raise Found("supply", f"{' and '.join(together.losers)} lose steps when all motors move at once")
 
     def _swap(self, axis: str) -> None:
-        """Find out whether a microcomputer or the driver that it controls is faulty."""
+        """Find out which of two parts is faulty: a microcomputer, or the driver that it controls."""
         self._test(f"swap {axis}", lambda: swapped(self._at, axis))
         self._test(f"origin {axis}", lambda: means.origin(self._at, axis))
         again = self._test(f"rail {axis}", lambda: means.rail(self._at, axis))

@@ -21,7 +21,9 @@ _WAYS: Final = dict(zip(_ORDER, ("x", "y", "z"), strict=False))
 
 
 class ProgramPolicy(Policy):
-    """Executes the program of the job. If the program stops, the policy waits for the time limit."""
+    """Executes the program of the job. When the program ends without a fault, the policy reports that the work is
+    done. If a fault stops the program, the policy waits for the time limit.
+    """
 
     actions = ("hand",)
     environments = (CHESS.id,)

@@ -106,7 +106,7 @@ def crash(speed: float | None, *, reflex: bool, endless_loop: bool = False, lowe
             vm.settle()
     _pass(bus)
     if endless_loop:
-        message = "nothing, because the central computer hangs; its count takes the last command as executed"
+        message = "nothing, because the central computer hangs; its count assumes that the last command was executed"
     else:
         message = vm.memory.fault.told if vm.memory.fault else f"ARRIVED AT {GOAL:g}"
     axes = tuple(_after(axis, vm, bus, gantries, greatest, stops) for axis in ARMS)
@@ -189,7 +189,7 @@ def lines(found: Crash) -> list[str]:
 
 _MEETS: Final = (
     "into the stationary hand of arm 2",
-    "into the stationary hand of arm 2, with the column above its own wrist",
+    "with its column, above its wrist, into the stationary hand of arm 2",
     "into the column of the stationary arm 2, above that arm's wrist",
 )
 _HITS: Final = {1: "the hand of arm 2, with the column of arm 1", 2: "the column of arm 2"}

@@ -256,7 +256,7 @@ class Gantries(Plant[GantryMemory]):
 
     @property
     def felt(self) -> Array:
-        """Present force on the wrists along each axis (N, shape (axes,))."""
+        """The force that now acts on the wrists along each axis (N, shape (axes,))."""
         return self._sense()[: self._n].copy()
 
     @property

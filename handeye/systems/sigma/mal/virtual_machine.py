@@ -289,7 +289,7 @@ class VirtualMachine:
 
     def _see_aborts(self) -> None:
         """If a motor has raised the interrupt, query the motor's position. The task that moved the motor continues at
-        the line in the task's ON ABORT statement. If the task has no ON ABORT statement, the program stops.
+        the line that the task's ON ABORT statement names. If the task has no ON ABORT statement, the program stops.
         """
         if not self.machine.interrupt:
             return

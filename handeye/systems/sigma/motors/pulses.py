@@ -81,12 +81,12 @@ class Pulses:
 
     @property
     def end(self) -> int:
-        """Number of ticks until the last pulse; 0 if there is no pulse."""
+        """Number of ticks from the command to the last pulse; 0 if there is no pulse."""
         return int(self.ticks[-1]) if len(self.ticks) else 0
 
     @cached_property
     def dividers(self) -> Ticks:
-        """The divider of the counter before each pulse."""
+        """For each pulse, the counter's divider for the interval that ends with this pulse."""
         return np.diff(self.ticks, prepend=0)
 
     def count(self, ticks: int) -> int:
@@ -100,7 +100,7 @@ class Pulses:
 
     @property
     def seconds(self) -> float:
-        """Time until the last pulse (s)."""
+        """Time from the command to the last pulse (s)."""
         return self.end / CLOCK_HZ
 
 

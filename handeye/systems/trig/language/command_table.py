@@ -83,7 +83,7 @@ TABLE: Final = (
     ),
     TrigCommand(
         usage="LOOP STEP COUNT", group=STEPS, takes=("step", "count"), needs=2, act=step_commands.loop,
-        help="go back to STEP COUNT times, so the steps of the loop are done COUNT + 1 times; then continue",
+        help="go back COUNT times to STEP, so the steps of the loop are done COUNT + 1 times; then continue",
     ),
     TrigCommand(
         usage="L STEP [n|g]", group=STEPS, takes=("step", "branch"), needs=1, act=step_commands.link,

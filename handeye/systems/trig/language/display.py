@@ -1,11 +1,11 @@
 """Draws the two displays of a program, which share a layout.
 
-A chain of steps is a column. A guarded step has two sons. The normal son stands below the step in the same column. The
-guarded son is one row below the step too, but it begins a column farther right. The lines that lead to these columns
-never cross, because the chains of later guarded steps are placed first. The full display shows the program in
-miniature: one character per step, with the active step in brackets. In the full display, a chain runs from left to
-right, because a screen is wider than high. The partial display shows the active step and the steps around it, one row
-per step, in as much detail as fits.
+In the layout, a chain of steps is a column. A guarded step has two sons. The normal son stands below the step in the
+same column. The guarded son is one row below the step too, but it begins a column farther right. The lines that lead
+to these columns never cross, because the chains of later guarded steps are placed first. The full display shows the
+program in miniature: one character per step, with the active step in brackets. The full display exchanges rows and
+columns of the layout, because a screen is wider than high: a chain there runs from left to right. The partial display
+shows the active step and the steps around it, one row per step, in as much detail as fits.
 """
 
 from dataclasses import dataclass, field

@@ -278,7 +278,7 @@ def _screwdriver() -> Iterator[DeviceFault]:
         ExpectedDetection(
             errors=(CURRENT_WRONG,), calls=(detect.loose_screw(1), detect.loose_screw(3)),
             harmless="A screw that turns more slowly seats equally well. Half the usual speed is noticed, because "
-            "the motor reaches it too soon.",
+            "the motor reaches this lower speed too soon.",
         ),
         Size(unit="", usual=0.4, limits=(0.0, 2.0)),
     )  # fmt: skip

@@ -171,8 +171,8 @@ def missing_pin(number: int) -> str:
 
 
 def screw_of(hole: int) -> int:
-    """Return the number of the screw that the program drives into a tapped hole. The program leaves hole 7 of a pump
-    with seven screws empty.
+    """Return the number of the screw that the program drives into a tapped hole. In a pump with seven screws, the
+    program leaves hole 7 empty.
     """
     return SCREWED.index(hole) + 1 if hole in SCREWED else hole
 

@@ -138,7 +138,7 @@ _UNSENSED: Final = {
     ),
     "overlap_bores": "In the simulation, solids do not pass through each other.",
     "overlap": "In the simulation, solids do not pass through each other.",
-    "as_drawn": "In the simulation, no part changes during a run.",
+    "as_drawn": "In the simulation, a part keeps its shape, mass and friction during a run.",
     "bonds": "In the simulation, a bond opens or closes only when the assembly requires it.",
     "held": "In the simulation, only the arm acts on the parts.",
     "numbers": "In the simulation, all numbers are finite.",

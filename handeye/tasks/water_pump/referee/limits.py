@@ -108,8 +108,8 @@ place from which it was lifted. In the next run, the fingers would not fit into 
 by 6.4 mm.
 """
 APART_TURN: Final = 3.0
-"""Greatest turn (degrees) of a part. If a part that is as long as the base is turned by this angle, its end moves by
-half of the fingers' clearance.
+"""Greatest turn (degrees) of a part. A turn by this angle moves the end of the base, or of a part as long as the base,
+by half of the fingers' clearance.
 """
 
 SETTLE: Final = 0.2  # s: long enough to compute the present forces, and for unsupported parts to fall

@@ -1,5 +1,5 @@
 """The collision shapes of the base's casting: walls of wedges around the two large holes, and the metal beside the
-tapped holes, which only pins and screws touch.
+tapped holes. In the simulation, only pins and screws collide with this metal.
 """
 
 import math
@@ -25,7 +25,9 @@ class _Wall(NamedTuple):
     inner: float  # radius, m
     outer: float  # radius, m
     mouths: list[tuple[float, float]]
-    """For each tapped hole in the wall, the directions (rad) from the axis between which its mouth lies."""
+    """For each tapped hole in the wall, two directions (rad), as seen from the axis of the wall. The mouth of the hole
+    lies between these directions.
+    """
 
     def style(self, angle: float) -> str:
         """Return the default class of the wedge at `angle` (rad). A wedge that contains a part of a tapped hole
@@ -38,8 +40,8 @@ class _Wall(NamedTuple):
         return "face"
 
     def rests(self) -> Iterator[list[Point]]:
-        """Yield the rest of the pierced wedges: on either side of each tapped hole, the corners (m) of the metal from
-        the mouth of the hole to the next wedge that is not pierced.
+        """Yield the solid metal that remains in the pierced wedges: for either side of each tapped hole, the corners
+        (m) of the metal between the mouth of the hole and the next wedge that is not pierced.
         """
         for low, high in self.mouths:
             right = _WEDGE * (math.floor(low / _WEDGE + 0.5) - 0.5)
@@ -66,8 +68,9 @@ def add_casting(shaper: Shaper, body: mujoco.MjsBody, holes: Sequence[Point]) ->
 
 
 def add_metal_beside_holes(shaper: Shaper, body: mujoco.MjsBody, holes: Sequence[Point]) -> None:
-    """Add the metal of the casting's face on which a pin or a screw stands that misses its hole, where the walls have
-    none: in pierced wedges, between the walls and the straight sides of the outline, in the ear and in the spout.
+    """Add the parts of the casting's face that the walls do not provide: in pierced wedges, between the walls and the
+    straight sides of the outline, in the ear and in the spout. A pin or a screw that misses its hole stands on this
+    metal.
     """
     d = dimensions()
     top = base_top()
