@@ -44,8 +44,8 @@ class OpenRuns:
         return self._added(to, call, lambda out: self._begun(start, out, at=stage or None))
 
     def find(self, run: str | None, call: Call) -> tuple[str, Run]:
-        """Return the run called `run`. A closed run is opened again. Raises InvalidInput if the folder has no run with
-        this name, or if the run ended before it was closed.
+        """Return the run called `run` or, if `run` is None, the run that was used last. A closed run is opened again.
+        Raises InvalidInput if the folder has no run with this name, or if the run ended before it was closed.
         """
         name = self.named(run)
         if name not in self._open:

@@ -1,5 +1,5 @@
-"""A scripted policy for `handeye/Pin-v0`. The hand follows a spiral, and at each place of the spiral descends until it
-feels a force. When it has found the hole, it presses the pin down to its seat.
+"""A scripted policy for `handeye/Pin-v0`. The hand makes guarded descents at the places of a spiral until it finds the
+hole. It then presses the pin down to its seat.
 
 The policy knows only the observations. The policy uses the servo of the working phase. This servo computes torques
 from the readings, and estimates the force on the hand from torques and rates.

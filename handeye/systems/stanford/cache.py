@@ -26,11 +26,11 @@ def cache(
     """List the kept camera calibrations and start states, or remove them.
 
     Before the first instruction, a run measures the arm's joints and calibrates the camera. handeye keeps the results,
-    and uses them in later runs with the same world, the same kind of pictures and the same versions of the software.
-    A later run starts at once, and its trace has the same bytes as the trace of a run that measures. `--calibrate`
-    measures again. One calibration takes about 6 kB. All calibrations together take at most 16 MB; to keep this limit,
-    handeye removes the oldest calibrations. To keep the files in another folder, write its path into the environment
-    variable HANDEYE_CACHE. If this variable is set but empty, nothing is kept.
+    and uses them in later runs with the same world, the same kind of pictures and the same versions of the software. A
+    run that uses kept results starts at once, and its trace has the same bytes as the trace of a run that measures.
+    `--calibrate` measures again. One calibration takes about 6 kB. All calibrations together take at most 16 MB; to
+    keep this limit, handeye removes the oldest calibrations. To keep the files in another folder, write its path into
+    the environment variable HANDEYE_CACHE. If this variable is set but empty, nothing is kept.
 
     The environments for learned policies also keep the states in which their episodes start. These states take at most
     256 MB.

@@ -90,8 +90,8 @@ class MalProgram:
 
     @cached_property
     def beyond(self) -> CompiledLine | None:
-        """The first line that needs an axis or a hand of the assembly line; None if SUPERSIGMA has every axis and hand
-        that the program uses.
+        """The first line that uses an axis or a hand that only the assembly line has; None if SUPERSIGMA has every
+        axis and hand that the program uses.
         """
         for address, each in enumerate(self.code):
             names = each.operand if isinstance(each.operand, tuple) else (each.operand,)
