@@ -74,8 +74,8 @@ class Interpreter:
     # -- execution ------------------------------------------------------------------------------------
 
     def run(self, first: int | None = None) -> None:
-        """Start the stored program at a statement, or at its first statement. Raises MlError if the program has no
-        statement with this number (M07), or if an emergency has stopped the arm (M14).
+        """Start the stored program at a statement, or at its first statement. Raises MlError if the program is empty or
+        has no statement with this number (M07), or if an emergency has stopped the arm (M14).
         """
         if why := self._emergency:
             raise MlError("M14", f"an emergency has stopped the arm: {why}; ENABLE the arm first")

@@ -46,7 +46,7 @@ _BY_PROGRAMS: Final[Mapping[str, tuple[str, ...]]] = {
     "AR": ("coordinate",), "CY": ("used", "share"), "EM": (), "FE": (), "GO": (), "PF": (), "PI": (), "SF": ()
 }  # fmt: skip
 """For each of these tables, the words that a program can write. In all other tables, a program can write every word.
-No program can delete a recorded emergency (`EM`), or change the interlocks (`SF`).
+No program can write the record of an emergency (`EM`), or the interlocks (`SF`).
 """
 
 

@@ -147,7 +147,7 @@ class Tabletop(ABC):
 
 def arrange(table: Tabletop, line: str) -> str:
     """Execute a line that describes the table. Returns a sentence that says what is then on the table. Raises
-    BadArgument if the line does not describe a table.
+    BadArgument if the line has another form, or if a number in it is out of range.
     """
     words = line.removeprefix(MARK).upper().split()
     match words:

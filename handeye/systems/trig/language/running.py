@@ -3,8 +3,8 @@
 A run goes from each step to one of its sons; a loop returns to its bloop. A reversal follows the trail, the last step
 first, regardless of later edits and of the cursor. A reversal brings the arm back to the start of each move, the hand
 to its earlier state, and positions and counts to their old values. When a grasp or a release is reversed, the gap
-between the fingers must be the same as during that step. An object that was taken up must find support again. An
-object that a guarded step met must still be there.
+between the fingers must first be the same as after that step, and then the same as before that step. An object that
+was taken up must find support again. An object that a guarded step met must still be there.
 """
 
 import math

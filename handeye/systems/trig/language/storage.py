@@ -152,7 +152,7 @@ def trig_file(path: Path) -> Path:
 
 
 def write_program(path: Path, program: TrigProgram) -> None:
-    """Write a program. An existing file is replaced only if it holds a TRIG program."""
+    """Write a program. An existing file is replaced only if it is empty or holds a TRIG program."""
     write_over(path, encoded(program), TRIG_FILE)
 
 

@@ -77,7 +77,7 @@ def broken_off_after(seed: int, blocks: int) -> int:
 
 
 def _more(rows: Sequence[PalletRow]) -> dict[str, object]:
-    """Return the largest value of each finding in all trials, and the total time (s) that the arm worked."""
+    """Return the largest value of each finding in all trials, and the total time on the arm's clock (s)."""
     most: dict[str, float] = {}
     for row in rows:
         for name, value in row.measures.items():
