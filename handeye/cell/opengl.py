@@ -42,7 +42,7 @@ _QUALITY: Final = {"shadowsize": 4096, "offsamples": 0, "numstacks": 2}
 More samples and rings would have no effect, because four fine points are averaged and the vidicon blurs the picture.
 On the table, a point of the shadow map is .7 mm wide, half as wide as a point of a picture. With a coarse map of 1024
 points, a point would be 2.8 mm wide, and pictures of a pump pushed by .1 mm would differ more at the edges of its
-shadows. `vision/matching.py` compares the same square of points in two pictures. In pictures of a pushed pump, such a
+shadows. `vision/alignment.py` compares the same square of points in two pictures. In pictures of a pushed pump, such a
 square differed by up to 2.6 levels with the coarse map. With the map of 4096 points, or with ray casting, the square
 differed by up to 1.0 level (seed 15, 30 pictures each). With the finer map, a picture takes .05 s longer.
 """

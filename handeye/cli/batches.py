@@ -222,9 +222,9 @@ def compare_trials(
     error of the world, changes the success rate.
 
     All batches must be of the same kind. Each comparison counts only the trials that are in both of its batches. `p`
-    is the p-value of McNemar's exact test. The test uses only the worlds in which one batch succeeded and the other
-    failed. `p` is the probability that chance alone splits these worlds between the two batches at least as unevenly
-    as they were split.
+    is the p-value of McNemar's exact test. The test uses only the trials that succeeded in one batch and failed in the
+    other. `p` is the probability that chance alone splits these trials between the two batches at least as unevenly as
+    they were split.
     """
     from handeye.trials.comparing import paired
     from handeye.trials.folder import read_batch

@@ -91,8 +91,8 @@ def _told(written: "Export", *, json: bool) -> int:
 
 
 def _exhibit(run: Path | None, world: WorldOptions) -> "ExportedState":
-    """Return the state to export. Prints a note for each checkpoint that cannot be read. Raises InvalidInput if `run`
-    is neither the folder of a run nor a checkpoint.
+    """Return the state to export. Prints a note for each file of the run that cannot be used, and a note if the run is
+    not finished. Raises InvalidInput if `run` is neither the folder of a run nor a checkpoint.
     """
     from handeye.runs.exported_state import initial_state, kept_state
 

@@ -153,7 +153,7 @@ class FaultKind:
 
 
 class Catalogue:
-    """The faults of a task, in the order in which every list shows them."""
+    """The faults of a task, in the order in which they are listed."""
 
     def __init__(self, *kinds: FaultKind, matrix: Sequence[str] = ()) -> None:
         """`matrix` names the faults with which a program is tested by default; if `matrix` is empty, all faults are

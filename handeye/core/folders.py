@@ -1,4 +1,4 @@
-"""Writes folders completely or not at all. A folder can be replaced only by a folder of the same kind."""
+"""Writes folders completely or not at all, and never replaces a folder of another kind."""
 
 import os
 import shutil

@@ -147,7 +147,7 @@ class World:
 
 
 class Variation:
-    """The quantities that vary between the worlds of a task, in the order in which every list shows them."""
+    """The quantities that vary between the worlds of a task, in the order in which they are listed."""
 
     def __init__(self, *quantities: Quantity) -> None:
         self.quantities = {quantity.name: quantity for quantity in quantities}

@@ -37,8 +37,8 @@ class ToolMemory(MutableRecord, kw_only=True):
 
 
 class ToolArm:
-    """The arm of a cell, for a program that moves the tool axes of this arm. Before and after this program, other
-    programs of a relay may move the arm.
+    """The arm of a cell, for a program that moves the tool axes of this arm. Before and after each leg of this
+    program, other programs of a relay may move the arm.
     """
 
     def __init__(self, cell: SimulatedCell, arm: ArmModel, around: RunCallbacks) -> None:
@@ -89,7 +89,7 @@ class ToolArm:
     @property
     def station(self) -> StationMemory:
         """The memory of the station: the measurements of its own devices, and the state of its camera. The program
-        returns this memory unchanged: only the program of 1973 improves the measurements and uses the camera.
+        returns this memory unchanged: only the program of 1973 improves the weights in it and uses the camera.
         """
         return self.memory.station
 

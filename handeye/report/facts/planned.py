@@ -207,8 +207,8 @@ def _causes(
     known: Mapping[tuple[Mover, str], Cause],
     search: _Search,
 ) -> Iterator[Cause]:
-    """Yield the reasons for which a goal was shifted. First come the saved differences and the search. If they do not
-    explain the whole shift, vision must have located the goal's part, which is another reason.
+    """Yield the reasons for which a goal was shifted. These are the saved differences and the search. If they do not
+    explain the whole shift, vision must have located the goal's part; this reason then comes first.
     """
     restored = [event for event in step.events if isinstance(event, Restored)]
     rest = np.subtract(adjusted.shift, np.sum([[0, 0, 0], *(event.difference for event in restored)], axis=0))
