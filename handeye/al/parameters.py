@@ -81,8 +81,8 @@ class FilledLine:
         )
 
     def located(self, mistake: Diagnostic, call: Statement) -> Diagnostic:
-        """Locate a mistake. If the mistake is at a parameter, the returned diagnostic points to the argument; if not,
-        to the line.
+        """Locate a mistake. If the mistake is at a parameter, the returned diagnostic points to the argument. If not,
+        or if the line has too many operands, the diagnostic points to the line.
         """
         given = self.given.get(mistake.primary.span)
         if given is None or mistake.code == "too-many-operands":

@@ -210,7 +210,7 @@ class _Phrases:
         notes: tuple[str, ...] = (),
         secondary: tuple[Label, ...] = (),
     ) -> Diagnostic:
-        """Make a diagnostic that points to the name of the arm position in a finding, or to the word of the motion if
+        """Make a diagnostic that points to the name of the position in a finding, or to the word of the motion if
         the finding has no position.
         """
         name = found.position

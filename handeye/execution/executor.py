@@ -110,9 +110,8 @@ class Executor:
         self._leave()
 
     def answer(self, choice: Choice) -> None:
-        """Carry out the operator's choice. The operator makes a choice after each call of the program, and after a
-        reversal. If a reversal has stopped with an error, `proceed` continues this reversal, and any other choice ends
-        it.
+        """Carry out what the operator chose after the program called the operator, or after a reversal. If a reversal
+        has stopped with an error, `proceed` continues this reversal, and any other choice ends it.
         """
         run, stage = self.run, self.state.stage
         assert stage is not None or choice == "proceed"

@@ -61,7 +61,9 @@ class Halted(Exception):
 
 @dataclass(slots=True, kw_only=True)
 class Servo:
-    """The servo of one arm. In each servo period, the servo sends commands to all devices of the cell."""
+    """The servo of one arm. In each servo period, the servo sends commands to the arm, the hand, the screwdriver and
+    the lamp.
+    """
 
     cell: Workcell
     arm: ArmModel

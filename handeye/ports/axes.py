@@ -1,4 +1,4 @@
-"""Defines machines whose servos are in the machine's own controller, not in the computer. The computer sends goals,
+"""Defines machines whose servos are outside the computer. The computer sends goals,
 reads channels and sets outputs.
 """
 

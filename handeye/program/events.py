@@ -29,7 +29,9 @@ class Event(Record, frozen=True, kw_only=True, tag_field="event", tag=True):
 
 
 class SystemEvent(Event, frozen=True, kw_only=True):
-    """Base class of the events that only one system has. `System.events` lists a system's events of this kind."""
+    """Base class of the events that a system adds to the events that all systems have. `System.events` lists the added
+    events of a system.
+    """
 
     importance: ClassVar[Importance] = "info"
 

@@ -39,8 +39,8 @@ def changed(before: dict[str, bytes], after: dict[str, bytes]) -> dict[str, byte
 
 
 def recalled(run: ExecutionContext, before: dict[str, bytes]) -> Memory:
-    """Decode stored memory. Returns a dictionary with the value of each field of the state. Raises ValueError if the
-    values do not fit the running program.
+    """Decode stored memory. Returns a dictionary with the value of each stored field of the state. Raises ValueError
+    if the values do not fit the running program.
     """
     if not before.keys() <= set(REMEMBERED):
         raise ValueError("the record contains data that no program can produce")

@@ -28,9 +28,9 @@ from handeye.touch.guards import ActiveGuard, Reading, Trip
 from handeye.touch.senses import too_early
 
 ALLOWED: Final = 20.0
-"""A reversal never stops at a force (N) below this value. When the arm lifted a top off the pins, the sensed force was
-at most 11 N. When the screws of the top were still fastened, the sensed force was 36 N in one step, and 108 N in the
-next.
+"""Smallest limit (N) of the guard that stops a reversal if the force on the hand is too great. When the arm lifted a
+top off the pins, the sensed force was at most 11 N. When the screws of the top were still fastened, the sensed force
+was 36 N in one step, and 108 N in the next.
 """
 SHARE: Final = 1.5  # multiple of the force that the step itself met
 
@@ -135,11 +135,11 @@ def retracing(
 
 FALLEN: Final = 0.31 * INCH
 """Greatest distance (m) from the place of the grasp at which resistance to a reversal means that the held object
-stands on its support. The object can have fallen by at most this distance before the fingers held it again. The gasket
-of the pump determines the limit: the fingers reach .25 in through the gasket (`[gasket_stand]`), which is .06 in
-thick. If the gasket had fallen much farther, the fingers could not hold it again. In the worlds of seeds 8128 and
-8124, the gasket fell by 6.0 and 6.7 mm. In the world of seed 8724, the gasket fell by 8.05 mm and the fingers still
-held it, but the limit stops the reversal: it has no margin for the error in the height of the arm.
+stands on its support. The object may have fallen before the fingers held it again, and we allow for a fall by this
+distance. The gasket of the pump determines the limit: the fingers reach .25 in through the gasket (`[gasket_stand]`),
+which is .06 in thick. If the gasket had fallen much farther, the fingers could not hold it again. In the worlds of
+seeds 8128 and 8124, the gasket fell by 6.0 and 6.7 mm. In the world of seed 8724, the gasket fell by 8.05 mm and the
+fingers still held it, but the limit stops the reversal: it has no margin for the error in the height of the arm.
 """
 
 

@@ -23,8 +23,8 @@ to its commanded speed. At this higher speed, the motor exerts enough torque to 
 """
 PRESS: Final = 6.0  # N on the screw to keep the bit in its slot, as for driving in
 TURN: Final = 0.00127 * 1.5
-"""Greatest permitted difference (m) between the descent of a screw and its later rise: one and a half turns of the
-thread. This tolerance is needed because the start of the thread is not sensed.
+"""A screw may rise by up to this distance (m) less than it went down: one and a half turns of the thread. This
+tolerance is needed because the start of the thread is not sensed.
 """
 TIGHTENED: Final = 3 * 0.00127
 """Height (m) of three turns of the thread. A screw that rises by less than this height was only tightened. A screw
