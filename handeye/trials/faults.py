@@ -158,8 +158,8 @@ class FaultWork:
         return [FaultRow(trial=case.trials[0], seed=case.seed, condition=case.condition, tried=tried)]
 
     def _start(self, world: WorldSpec, faults: tuple[Fault, ...], stage: int | None) -> Checkpoint:
-        """Return the start of a run with `faults`. If runs without faults are stored, the run starts from a stored
-        state: the state before `stage`, in which the faults begin. If not, the run starts from the beginning.
+        """Return the start of a run with `faults`. If `stage` is given and fault-free runs are stored, the run starts
+        from the stored state before this stage, in which the faults begin. If not, the run starts from the beginning.
         """
         setup = Setup(plan=self.plan, world=world, camera=self.camera)
         if self.sound is None or stage is None:

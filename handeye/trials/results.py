@@ -106,7 +106,7 @@ def assemble_each(
         search: search pattern, as for `handeye.begin`.
         referee: referee or limits, as for `handeye.begin`.
         jobs: number of parallel processes. If there is more than one process, guard the calling program with `if
-            __name__ == "__main__":`. In this case, `search` cannot be Python code, and `referee` must be a set of
+            __name__ == "__main__":`. In this case, `search` cannot be Python code, and `referee` can only be a set of
             limits.
 
     Returns:

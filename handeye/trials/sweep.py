@@ -294,8 +294,8 @@ def carry_out(
 
 
 def rows_of(sweep: Sweep[R], answer: Answer[Case, list[R]]) -> list[R]:
-    """Return the rows of a case. If the process of the case was killed, the rows record only this. Raises errors that
-    did not come from the trials.
+    """Return the rows of a case. If the process of the case ended without a result, the rows record only how it ended.
+    Raises errors that did not come from the trials.
     """
     if answer.error is not None:
         raise answer.error

@@ -39,8 +39,9 @@ ABSENT: Final = 2.2  # mean difference, levels, below which there is no gasket
 STEP: Final = (1.8, 0.3)  # least step across a border of the gasket: levels, and fraction of its difference
 CENTRE_SHIFT: Final = 0.09 * INCH
 RIM_SHIFT: Final = 0.10 * INCH
-"""Greatest permitted displacements (m) of a hole of the gasket: CENTRE_SHIFT for the centre of the hole, and RIM_SHIFT
-for its rim. RIM_SHIFT and the three values below are from the vision study, section 4.
+"""Greatest permitted displacements (m) of a dark hole in the difference, relative to the base's hole: CENTRE_SHIFT for
+the centre of the dark hole, and RIM_SHIFT for its border. RIM_SHIFT and the three values below are from the vision
+study, section 4.
 """
 BESIDE: Final = 0.3 * INCH  # distance (m) from a hole's border to where the difference is measured
 BEFORE_STEP: Final = 0.38

@@ -74,7 +74,7 @@ its hole, and the calibrated view may be wrong by as much.
 BESIDE: Final = 12
 """Width (points) of a strip around the part. The strip counts neither as part nor as surroundings.
 
-The strip contains the part's shadow. It also allows for an outline that is slightly displaced, because the
+The strip allows for the shadow of the part. It also allows for an outline that is slightly displaced, because the
 potentiometers of the mount do not give the exact aim.
 """
 

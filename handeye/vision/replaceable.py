@@ -1,7 +1,7 @@
 """The vision functions that a calling program can replace, and wrappers for the program's own functions.
 
 A wrapper checks the result of the caller's function. If the result is the place of a part, the wrapper also computes
-the outline that a part at this place has in the picture. Reports mark this outline.
+where a part at this place appears in the picture. Reports mark this place.
 """
 
 from collections.abc import Callable, Mapping

@@ -44,7 +44,7 @@ class WorldSpace:
 
     def world(self, point: Point) -> WorldSpec:
         """Return the world of a point. If a value would be beyond a limit of its quantity, it is set to the limit.
-        Such values occur if the user scales the errors, by a factor of at most four.
+        This can happen because a user can scale errors by a factor of up to four.
         """
         values = {
             name: self._value(each, float(number))

@@ -98,7 +98,7 @@ def _sensed(screws: int) -> Iterator[Obligation]:
         Obligation(finding="motor", claims=(claims.motor_off(),), rests=_SERVO),
         Obligation(
             finding="rest", claims=(claims.released(),),
-            rests="The program touches only the parts that other findings need, so a part that hangs from the hand "
+            rests="A program need not touch a part that no other finding needs, so a part that hangs from the hand "
             "may remain unnoticed.",
         ),
     )  # fmt: skip

@@ -198,8 +198,8 @@ def rotor_torque(measured: SettledState) -> float:
 
 
 def _alone(measured: SettledState) -> tuple[mujoco.MjModel, mujoco.MjData]:
-    """Return a copy of the cell in which nothing acts on the rotor except friction in its joint and contacts with
-    solid shapes.
+    """Return a copy of the cell in which only the rotor's joint has friction, only the rotor touches other solid
+    shapes, and no equality constraint is active.
     """
     model, rotor = copy.deepcopy(measured.model), measured.model.body("rotor").id
     crank = model.geom_bodyid == rotor

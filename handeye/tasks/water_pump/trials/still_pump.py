@@ -1,5 +1,5 @@
 """The pump's cell in its initial state, for trials of vision: parts are placed at given poses, and located with
-the camera. The trials know only as much about parts and camera as a program knows.
+the camera. Parts and camera are described as a program knows them.
 """
 
 import math
