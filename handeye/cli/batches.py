@@ -175,7 +175,7 @@ def dismantling_trials(
     """Assemble in many worlds, make the arm take each pump apart again, and count how often every part is back in
     place.
 
-    Trials in which nothing was assembled are listed but not counted.
+    Trials in which the assembly does not succeed are listed but not counted.
 
     Exit code 0: no silent failure; 1: no trial finished; 3: a silent failure: in some world, the program reported
     everything undone but the referee disagreed; 2: bad input; 130: interrupted.
