@@ -71,7 +71,7 @@ def pinned() -> list[Pose]:
 
 
 def pins_aside(world: PumpWorld) -> tuple[float, float]:
-    """How far along y (in) the hand must carry the gasket from GON, so that the middle of its two holes comes to the
+    """How far along y (in) the hand must carry the gasket from GON, so that the middle of its two holes reaches the
     middle of the pins; and how far from Q1, as the arm reads it, the first pin stands (Y1)."""
     X_WB, X_WG = base_and_gasket(world)
     laid = arrived(world, "GON") @ np.linalg.inv(arrived(world, "G")) @ X_WG
